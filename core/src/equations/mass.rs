@@ -95,13 +95,3 @@ pub(super) fn add_blocks<S: Real>(model: &Model<S>, blocks: &[MassBlock<S>], x: 
         columns.add(block.times(columns.of(x)), y);
     }
 }
-
-/// xᵀ M x as a sum of squares, which avoids cancellation.
-pub fn twice_energy<S: Real>(model: &Model<S>, motions: &[Motion<S>], x: &[S]) -> S {
-    let bodies = model.bodies.iter().zip(motions).zip(&model.layout.bodies).skip(1);
-    bodies.fold(S::zero(), |sum, ((body, motion), columns)| {
-        let [x, y, angle] = columns.of(x);
-        let center = Vec2::new(x, y) + motion.pose.global(body.center).perp().scale(angle);
-        sum + body.mass * center.dot(center) + body.inertia * angle * angle
-    })
-}

@@ -27,6 +27,8 @@ const ROUNDING: f64 = 1e-15;
 const SIGNIFICANT: f64 = 1e-9;
 /// Smallest multipliers, relative to the largest force, that are solved to all digits.
 const LEAST: f64 = 1e-10;
+/// Multipliers below this part of heaviest mass times largest acceleration are rounding errors.
+const ROUNDED: f64 = 1e-12;
 /// Smallest value of the terms of a remainder relative to the largest terms, so that rounding errors do not
 /// count as loads.
 const LEAST_TERMS: f64 = 1e-4;
@@ -122,7 +124,7 @@ pub(super) fn correct<S: Real>(
     let (least, light) = ([0.0, LEAST * most(b[0])], matrix.is_light());
     // a ridge must stay where rows are dependent
     let settles = light && !matrix.regularised();
-    let (mut last, first) = (f64::INFINITY, most(&solution[at..]));
+    let mut last = f64::INFINITY;
     for corrections in 1..=MOST {
         put_remainder(of, masses, b, solution, correction);
         matrix.solve(correction);
@@ -149,8 +151,14 @@ pub(super) fn correct<S: Real>(
         return Ok(());
     }
     put_remainder(of, masses, b, solution, correction);
-    // without forces, multipliers may be rounding errors of those of the first solution
-    let rounded = if most(b[0]) <= LEAST * first { LEAST_TERMS * first } else { 0.0 };
+    // multipliers may be rounding errors of those that accelerate the bodies
+    let heaviest =
+        model.bodies.iter().fold(0.0_f64, |most, body| most.max(body.mass.largest_magnitude()));
+    let closes = |&[_, column, entry]: &[u32; 3]| {
+        (matrix.jacobian()[entry as usize] * solution[column as usize]).largest_magnitude()
+    };
+    let moves = matrix.plan().positions.iter().map(closes).fold(0.0, f64::max);
+    let rounded = ROUNDED * heaviest * moves;
     let lam = solution[at..].iter().map(|x| x.abs().max(S::constant(rounded))).list();
     let terms = terms(model, masses, matrix.jacobian(), b, [&solution[..n], &lam]);
     significant(&correction[..n], &terms).map_or(Ok(()), |column| Err(Breakdown::Column(column)))

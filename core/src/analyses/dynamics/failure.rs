@@ -1,7 +1,7 @@
 //! Failures of forward dynamics, in terms of the mechanism.
 
 use super::law_fault::{undefined_law, LawFault};
-use super::law_jump::{owner_name, LawJump, SMOOTH};
+use super::law_jump::{LawJump, SMOOTH};
 use super::no_mass;
 use super::run_results::Run;
 use crate::analyses::mobility::dependent;
@@ -249,7 +249,7 @@ fn at_switch(model: &Model, t: f64, breakdown: Breakdown) -> Box<Failure> {
         Breakdown::TooFast(switch) => {
             let Switch { owner, law, .. } = model.switches[switch];
             let what = if law { "a law of " } else { "" };
-            return Failure::too_fast(&format!("{what}{}", owner_name(model, owner)), t);
+            return Failure::too_fast(&format!("{what}{}", owner.name(model)), t);
         }
         Breakdown::Jump { constraint, position, values } => {
             let message = LawJump { constraint, position, values }.describe(model, t);
@@ -271,7 +271,7 @@ fn at_switch(model: &Model, t: f64, breakdown: Breakdown) -> Box<Failure> {
     let message = format!(
         "{}{} switches back and forth at t = {t:.6} s: on both sides of its condition the motion returns to it",
         if law { "a law of " } else { "" },
-        owner_name(model, owner)
+        owner.name(model)
     );
     let hint = "use a friction element, which may stick and whose load may be a law; or replace the jump by a steep smooth \
                 function: sign(x) by tanh(x/x0), with x0 small against the usual x";

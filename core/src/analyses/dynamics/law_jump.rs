@@ -4,7 +4,7 @@ use crate::equations::kinematics::Motions;
 use crate::equations::switches::law_values;
 use crate::expression::Tape;
 use crate::math::Jet;
-use crate::model::{row_scales, Model, SwitchOwner};
+use crate::model::{row_scales, Model};
 
 /// Largest jump of the law of a joint or driver, and of its rate, relative to the largest of both values (or both
 /// rates) and the size of the mechanism (1 for angles).
@@ -69,11 +69,3 @@ impl LawJump {
 pub(super) const SMOOTH: &str =
     "join the pieces with equal values and equal rates, for instance by step5 or another \
                                  motion law";
-
-/// The name of the element to which a switch belongs.
-pub(super) fn owner_name(model: &Model, owner: SwitchOwner) -> &str {
-    match owner {
-        SwitchOwner::Constraint(k) => &model.constraints[k].name,
-        SwitchOwner::Force(k) => &model.forces[k].name,
-    }
-}

@@ -1,18 +1,20 @@
 //! Extreme values of measures with derivatives.
 
 use super::reader::SlopeRow;
-use super::statistics::{RunTimes, SlopeRows};
+use super::statistics::{Found, RunTimes, SlopeRows};
 use crate::analyses::statistics::Extreme;
 
 /// Part of the span of a measure by which it may change within a step at the time of its extreme value.
 const FLAT: f64 = 1e-4;
+/// Part of the span of a measure within a step below which its change counts as zero at an end of the run.
+const STILL: f64 = 1e-9;
 /// Derivatives of two equally large maxima that differ by less than this fraction are equal.
 const ALIKE: f64 = 1e-6;
 
 /// The derivatives of an extreme value and of its time.
 pub(super) struct Stationary {
     pub of_value: Vec<f64>,
-    pub of_time: Vec<f64>,
+    pub of_time: Found,
 }
 
 impl Stationary {
@@ -27,16 +29,22 @@ impl Stationary {
         times: RunTimes<'_>,
     ) -> Result<Self, String> {
         if let Some(corner) = rows.corner(t) {
-            return Ok(Self { of_value: corner.whole(k, value), of_time: corner.late.clone() });
+            let (of_value, of_time) = (corner.whole(k, value), Ok(corner.late.clone()));
+            return Ok(Self { of_value, of_time });
+        }
+        if let Some(end) = times.near_end(t) {
+            let change = (rows.at(end)?.values[k][1] * times.step(end)).abs();
+            let is_still = change <= STILL * rows.span[k];
+            if end == t || is_still {
+                return Self::at_end(rows, k, end, (times.outputs.last() == Some(&end), is_still));
+            }
         }
         let (row, beside) = (rows.at(t)?, times.beside(t));
-        let fixed = || Self { of_value: row.slopes[k].clone(), of_time: vec![0.0; rows.variables] };
-        if times.outputs.last() == Some(&t) {
-            return Ok(Self { of_value: rows.final_slopes(k)?, of_time: rows.end.clone() });
-        }
+        let fixed =
+            || Self { of_value: row.slopes[k].clone(), of_time: Ok(vec![0.0; rows.variables]) };
         let d = beside[2] - t;
         let change = (row.values[k][1] * times.step(t)).abs();
-        if times.is_end(t) || d <= 0.0 || rows.span[k] == 0.0 {
+        if d <= 0.0 || rows.span[k] == 0.0 {
             return Ok(fixed());
         }
         if change > FLAT * rows.span[k] {
@@ -63,6 +71,29 @@ impl Stationary {
             of_value.push(slopes.value(late));
             of_time.push(-slopes.slope(late) / second);
         }
+        Ok(Self { of_value, of_time: Ok(of_time) })
+    }
+
+    /// The derivatives of an extreme value at the first or the last time of a run.
+    ///
+    /// # Errors
+    /// The reason for which there are no derivatives.
+    fn at_end(
+        rows: &SlopeRows,
+        k: usize,
+        t: f64,
+        (is_last, is_still): (bool, bool),
+    ) -> Result<Self, String> {
+        let (of_value, late) = match is_last {
+            true => (rows.final_slopes(k)?, rows.end.clone()),
+            false => (rows.at(t)?.slopes[k].clone(), vec![0.0; rows.variables]),
+        };
+        let of_time = match is_still && !rows.is_constant(k) {
+            true => Err(format!(
+                "the value is stationary at the end of the run, t = {t:.6} s, so that this time can move to one side only"
+            )),
+            false => Ok(late),
+        };
         Ok(Self { of_value, of_time })
     }
 }

@@ -96,7 +96,7 @@ impl<'a> MotionSlopes<'a> {
         }
         let [loose, tight] = TOLERANCES;
         let rtol = scheme.control().rtol.clamp(tight, loose);
-        let atol = scales(model, sizes).iter().map(|x| ABSOLUTE * rtol * x).list();
+        let atol = scales(model, run, sizes).iter().map(|x| ABSOLUTE * rtol * x).list();
         let control = StepControl {
             atol: Atol::Each(atol),
             max_steps: Some(MOST),
@@ -219,7 +219,7 @@ impl<'a> MotionSlopes<'a> {
         let AskedRun { model, run, options, .. } = &self.asked;
         let (mut all, t) = (Vec::new(), self.steps.t[self.step]);
         if self.next_pieces() == Some(self.step) {
-            all.extend(Trigger::of_switches(&run.held[self.held + 1]));
+            all.extend(Trigger::of_switches(&self.ode.model, &run.held[self.held + 1]));
         }
         if self.ends_phase(self.step) {
             let passage = run.passages.get(self.phase + 1);
@@ -233,7 +233,7 @@ impl<'a> MotionSlopes<'a> {
             if passage.replaced {
                 return Err(format!("an action replaces the state at t = {t:.6} s"));
             }
-            all.extend(Trigger::of_events((model, &self.ode.model), options, &passage.fired)?);
+            all.extend(Trigger::of_passage((model, &self.ode.model), options, passage)?);
         }
         Ok(all)
     }
@@ -319,6 +319,16 @@ impl<'a> MotionSlopes<'a> {
         self.ode.workspace.motions.pieces = pieces.unwrap_or_default().to_vec();
     }
 
+    /// The magnitudes of the variables of all blocks.
+    pub fn sizes(&self) -> &[f64] {
+        &self.asked.sizes
+    }
+
+    /// The duration of the run.
+    pub fn duration(&self) -> f64 {
+        self.steps.t[self.steps.t.len() - 1] - self.steps.t[0]
+    }
+
     /// The time and the state at which the motion has changed last.
     pub fn since(&self) -> (f64, &[f64]) {
         (self.since.0, &self.since.1)
@@ -338,10 +348,16 @@ fn singular(t: f64) -> String {
     format!("it has no bound: the position at t = {t:.6} s is singular, or the forces there have no derivative")
 }
 
-/// The scale of each component of (state, derivatives of the state by the first variable, and so on).
-fn scales(model: &Model, sizes: &[f64]) -> Vec<f64> {
-    let of_q = column_scales(model);
-    let (states, works) = (vec![1.0; model.layout.n_z], vec![usual_energy(model); WORKS]);
+/// The scale of each component of (state, derivatives of the state by the first variable, and so on). States of first
+/// order have the scale of their largest value in the run.
+fn scales(model: &Model, run: &Run, sizes: &[f64]) -> Vec<f64> {
+    let (of_q, n_z) = (column_scales(model), model.layout.n_z);
+    let most = |k: usize| {
+        let values = run.trajectory.z.iter().skip(k).step_by(n_z);
+        values.fold(0.0_f64, |most, z| most.max(z.abs()))
+    };
+    let states = (0..n_z).map(most).map(|size| if size > 0.0 { size } else { 1.0 }).list();
+    let works = vec![usual_energy(model); WORKS];
     let own = [&of_q[..], &of_q, &states, &works].concat();
     let slopes = sizes.iter().flat_map(|size| own.iter().map(move |scale| scale / size));
     own.iter().copied().chain(slopes).list()

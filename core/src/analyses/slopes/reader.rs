@@ -38,14 +38,27 @@ pub(super) struct Reader<'a> {
 pub(super) struct Corner {
     /// Its derivatives by each variable.
     pub late: Vec<f64>,
+    /// What changes there.
+    names: Vec<String>,
     /// The measures before and after the change.
     pub sides: [SlopeRow; 2],
 }
 
+impl Corner {
+    /// What changes there, for messages.
+    fn name(&self) -> &str {
+        self.names.first().map_or("another change", |name| name)
+    }
+}
+
 /// Part of its value at the last change below which the rate of a function, over the time since, counts as zero.
 const GRAZES: f64 = 1e-6;
-/// Part of the largest derivative by which derivatives of one time may differ.
+/// Part of the duration of a run within which two changes count as simultaneous.
+const NEAR: f64 = 1e-10;
+/// Part of a derivative by which two derivatives of one time may differ.
 const TOGETHER: f64 = 1e-9;
+/// Part of the largest effect of a variable on a time below which an effect counts as a rounding error.
+const ROUNDED: f64 = 1e-12;
 
 /// The values of all measures at a time.
 #[derive(Clone, Debug)]
@@ -103,7 +116,14 @@ impl<'a> Reader<'a> {
     /// # Errors
     /// The reason for which there are no derivatives.
     pub fn end(&mut self, t: f64) -> Result<(Vec<Vec<Slope>>, Vec<f64>), String> {
-        let late = self.at(t)?.late((0, &[0.0]), 0.0)?;
+        let row = self.at(t)?;
+        let late = match row.slopes.is_empty() {
+            true => vec![0.0; row.variables],
+            false => {
+                let name = "the condition that ends the motion";
+                row.late(name, 0, (0.0, 0.0))?.ok_or_else(|| touches(name, t))?
+            }
+        };
         let mut states = self.states(t)?;
         if let StateSlopes::Dynamics(motion) = &mut self.course {
             let mut y = motion.at(t)?;
@@ -122,13 +142,25 @@ impl<'a> Reader<'a> {
         let triggers = motion.triggers()?;
         let (begun, start) = motion.since();
         let (n_y, start) = (self.model.layout.n_y(), start.to_vec());
-        let first = self.over_time(begun, &start[..n_y], (true, &triggers));
+        let first = self.over_time(begun, &start[..n_y], (true, &triggers))?;
         let mut before = self.row(t, states, &triggers)?;
-        let first: Vec<f64> = match first {
-            Ok(values) => values[self.measures.len()..].iter().map(|x| x[0]).list(),
-            Err(_) => vec![0.0; triggers.len()],
+        let StateSlopes::Dynamics(motion) = &self.course else { return Ok(()) };
+        let (own, since, mut times) = (self.measures.len(), t - begun, Vec::new());
+        for (k, trigger) in triggers.iter().enumerate() {
+            let found = before.late(&trigger.name, own + k, (first[own + k][0], since))?;
+            times.extend(found.map(|late| (&trigger.name[..], late)));
+        }
+        let names = triggers.iter().map(|trigger| trigger.name.clone()).list();
+        let late = match times.is_empty() {
+            true => vec![0.0; motion.sizes().len()],
+            false => {
+                let others = self.corners.last().filter(|_| since <= NEAR * motion.duration());
+                let others =
+                    others.filter(|last| last.names.iter().all(|name| !names.contains(name)));
+                times.extend(others.map(|last| (last.name(), last.late.clone())));
+                agreed(t, &times, motion.sizes())?
+            }
         };
-        let late = before.late((self.measures.len(), &first), t - begun)?;
         let StateSlopes::Dynamics(motion) = &mut self.course else { return Ok(()) };
         motion.turn(&late)?;
         self.follow();
@@ -136,7 +168,7 @@ impl<'a> Reader<'a> {
         let after = self.row(t, states, &[])?;
         before.slopes.truncate(self.measures.len());
         before.values.truncate(self.measures.len());
-        self.corners.push(Corner { late, sides: [before, after] });
+        self.corners.push(Corner { late, names, sides: [before, after] });
         Ok(())
     }
 
@@ -233,36 +265,54 @@ impl<'a> Reader<'a> {
 }
 
 impl SlopeRow {
-    /// The derivatives of the time at which the functions from index `first` on become zero. `before` are their values
-    /// at the last change, a time `since` ago.
+    /// The derivatives of the time at which function `k`, called `name`, becomes zero. `before` is its value at the last
+    /// change, a time `since` ago. None if it is zero all the time, whatever the variables are.
     ///
     /// # Errors
-    /// They only touch zero, or several become zero at one time that do not stay together.
-    fn late(&self, (first, before): (usize, &[f64]), since: f64) -> Result<Vec<f64>, String> {
-        let (t, mut agreed) = (self.t, None::<Vec<f64>>);
-        for ((slopes, values), before) in
-            self.slopes.iter().zip(&self.values).skip(first).zip(before)
-        {
-            let rate = values[1];
-            if !((rate * since).abs() >= GRAZES * before.abs() && rate != 0.0) {
-                return Err(format!(
-                    "what changes the motion at t = {t:.6} s only touches its limit"
-                ));
-            }
-            let own: Vec<f64> = slopes.iter().map(|slope| -slope / rate).list();
-            let size = own.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            let near = |(a, b): (&f64, &f64)| (a - b).abs() <= TOGETHER * size;
-            match &agreed {
-                Some(known) if !known.iter().zip(&own).all(near) => {
-                    return Err(format!(
-                        "two changes happen together at t = {t:.6} s, and their order may change"
-                    ))
-                }
-                _ => agreed = Some(own),
-            }
+    /// The function only touches zero.
+    fn late(
+        &self,
+        name: &str,
+        k: usize,
+        (before, since): (f64, f64),
+    ) -> Result<Option<Vec<f64>>, String> {
+        let rate = self.values[k][1];
+        if (rate * since).abs() >= GRAZES * before.abs() && rate != 0.0 {
+            return Ok(Some(self.slopes[k].iter().map(|slope| -slope / rate).list()));
         }
-        Ok(agreed.unwrap_or_else(|| vec![0.0; self.variables]))
+        match rate == 0.0 && self.slopes[k].iter().all(|slope| *slope == 0.0) {
+            true => Ok(None),
+            false => Err(touches(name, self.t)),
+        }
     }
+}
+
+fn touches(name: &str, t: f64) -> String {
+    format!("{name} only touches its limit at t = {t:.6} s")
+}
+
+/// The derivatives of a time at which one thing or more change, by variables with some magnitudes.
+///
+/// # Errors
+/// The changes do not stay together.
+fn agreed(t: f64, times: &[(&str, Vec<f64>)], sizes: &[f64]) -> Result<Vec<f64>, String> {
+    let (name, late) = &times[0];
+    let effects = |of: &[f64]| {
+        of.iter().zip(sizes).fold(0.0_f64, |most, (x, size)| most.max((x * size).abs()))
+    };
+    for (other, own) in &times[1..] {
+        let floor = ROUNDED * effects(late).max(effects(own));
+        let differ = |((a, b), size): ((&f64, &f64), &f64)| {
+            let most = (TOGETHER * a.abs().max(b.abs())).max(floor / size);
+            (a - b).abs() > most || (a - b).is_nan()
+        };
+        if late.iter().zip(own).zip(sizes).any(differ) {
+            return Err(format!(
+                "{name} and {other} happen together at t = {t:.6} s, and their order may change"
+            ));
+        }
+    }
+    Ok(late.clone())
 }
 
 /// The measures and the functions of triggers at a state whose accelerations and multipliers are known.

@@ -42,11 +42,6 @@ pub(super) struct RunTimes<'a> {
 }
 
 impl RunTimes<'_> {
-    pub(super) fn is_end(&self, t: f64) -> bool {
-        let last = self.outputs.len() - 1;
-        t == self.outputs[0] || t == self.outputs[last]
-    }
-
     pub(super) fn step(&self, t: f64) -> f64 {
         let ends = self.steps.len() - 1;
         let after = self.steps.partition_point(|end| *end <= t).clamp(1, ends.max(1));
@@ -54,6 +49,12 @@ impl RunTimes<'_> {
             0 => 0.0,
             _ => self.steps[after] - self.steps[after - 1],
         }
+    }
+
+    /// The end of the run that is so near to a time that an extreme value may be at the end itself.
+    pub(super) fn near_end(&self, t: f64) -> Option<f64> {
+        let ends = [self.outputs[0], self.outputs[self.outputs.len() - 1]];
+        ends.into_iter().find(|end| (end - t).abs() <= SEARCHED * self.step(t))
     }
 
     /// A time, or the time of a change of the motion if it is there up to the accuracy of the search.
@@ -137,7 +138,8 @@ impl SlopePlan {
             Self::Final(t) => vec![*t],
             Self::Extreme(at, rivals) | Self::TimeOf(at, rivals) => {
                 let each = std::iter::once(at.t).chain(rivals.iter().copied());
-                each.flat_map(|t| [&[t], &times.beside(t)[..]].concat()).list()
+                let near = |t: f64| times.near_end(t).unwrap_or(t);
+                each.flat_map(|t| [&[t, near(t)], &times.beside(t)[..]].concat()).list()
             }
             Self::Integral(_, found) => found.t.clone(),
             Self::Settling(all) => all.to_vec(),
@@ -172,7 +174,7 @@ impl SlopePlan {
                 let sign = if is_peak && found.value < 0.0 { -1.0 } else { 1.0 };
                 Ok(slopes.iter().map(|slope| sign * slope).list())
             }
-            Self::TimeOf(found, rivals) => Ok(rows.agreed(k, (found, rivals), times)?.of_time),
+            Self::TimeOf(found, rivals) => rows.agreed(k, (found, rivals), times)?.of_time,
             Self::Integral(of, found) => rows.slopes_of_integral(*of, k, found),
             Self::Settling([t, most, last]) => {
                 let [entry, peak, end] = [at(*t)?, at(*most)?, at(*last)?];
@@ -276,6 +278,12 @@ impl SlopeRows {
         let last = self.end_row()?;
         let moves = |(slope, end): (&f64, &f64)| slope + last.values[k][1] * end;
         Ok(last.slopes[k].iter().zip(&self.end).map(moves).list())
+    }
+
+    /// Whether measure `k` has one value at all times read.
+    pub(super) fn is_constant(&self, k: usize) -> bool {
+        let first = self.rows.first().map_or(0.0, |row| row.values[k][0]);
+        self.rows.iter().all(|row| (row.values[k][0] - first).abs() <= RIVAL * self.span[k])
     }
 
     /// The change of the motion at a time.

@@ -1,6 +1,8 @@
 //! The functions whose zeros determine when a motion changes: conditions, modes of forces, and switches.
 
-use crate::analyses::dynamics::{planned, watched_mode, Effect, HeldPieces, ModeFunction, Options};
+use crate::analyses::dynamics::{
+    planned, watched_mode, Effect, HeldPieces, ModeFunction, Options, Passage, Struck,
+};
 use crate::analyses::measures::Measure;
 use crate::analyses::signals::Seen;
 use crate::equations::sensitivity::Slope;
@@ -8,9 +10,19 @@ use crate::equations::switches;
 use crate::math::{Listed, Real};
 use crate::model::Model;
 
+/// The place of the event of a hit among the events of a contact.
+const HIT: usize = 0;
+
 /// A function whose zero determines a time.
 #[derive(Clone)]
-pub(super) enum Trigger {
+pub(super) struct Trigger {
+    /// What changes there, for messages.
+    pub name: String,
+    function: Function,
+}
+
+#[derive(Clone)]
+enum Function {
     /// The function of a condition.
     Condition(Measure),
     /// The function of a force with modes.
@@ -20,50 +32,62 @@ pub(super) enum Trigger {
 }
 
 impl Trigger {
-    /// The triggers of the events that ended a phase of a model.
+    /// The triggers of the events that ended a phase of a model. A contact that hits at the same time as another one has
+    /// its own trigger, although the event of the other one ended the phase.
     ///
     /// # Errors
     /// The reason why their times have no derivatives.
-    pub fn of_events(
+    pub fn of_passage(
         (base, phase): (&Model, &Model),
         options: &Options,
-        fired: &[usize],
+        passage: &Passage,
     ) -> Result<Vec<Self>, String> {
-        let events = planned(base, options);
+        let (events, mut fired) = (planned(base, options), passage.fired.clone());
+        let was_open = |one: &&Struck| !phase.forces[one.force].mode.holds();
+        for one in passage.impacts.iter().flatten().filter(was_open) {
+            let hit = Effect::Mode { force: one.force, place: HIT };
+            let own = events.iter().position(|event| event.effect == hit);
+            fired.extend(own.filter(|own| !fired.contains(own)));
+        }
         let of = |index: &usize| {
             let event = events.get(*index).ok_or("an event is not known")?;
+            let name = event.name.clone();
             if let Effect::Mode { force, place } = event.effect {
                 let (function, _) = watched_mode(phase, force, place);
                 return match function.is_held() {
-                    true => Err(format!("{} is in a joint that drivers hold", event.name)),
-                    false => Ok(Self::Mode(function)),
+                    true => Err(format!("{name} is in a joint that drivers hold")),
+                    false => Ok(Self { name, function: Function::Mode(function) }),
                 };
             }
             let read = Measure::of_condition(base, &event.condition);
-            let read = read.map_err(|_| format!("the condition of {} is not read", event.name))?;
-            Ok(Self::Condition(read.in_phase(phase)))
+            let read = read.map_err(|_| format!("the condition of {name} is not read"))?;
+            Ok(Self { name, function: Function::Condition(read.in_phase(phase)) })
         };
         fired.iter().map(of).collect()
     }
 
     /// The triggers of switches that change.
-    pub fn of_switches(held: &HeldPieces) -> Vec<Self> {
-        held.causes.iter().map(|k| Self::Switch(*k)).list()
+    pub fn of_switches(model: &Model, held: &HeldPieces) -> Vec<Self> {
+        let of = |k: &usize| {
+            let name = format!("the switch of {}", model.switches[*k].owner.name(model));
+            Self { name, function: Function::Switch(*k) }
+        };
+        held.causes.iter().map(of).list()
     }
 
     /// Whether the function needs accelerations or multipliers.
     pub fn needs_solution(&self, model: &Model) -> bool {
-        match self {
-            Self::Condition(measure) => measure.needs_solution(model),
-            Self::Mode(_) | Self::Switch(_) => true,
+        match &self.function {
+            Function::Condition(measure) => measure.needs_solution(model),
+            Function::Mode(_) | Function::Switch(_) => true,
         }
     }
 
     pub fn value(&self, model: &Model<Slope>, seen: &Seen<'_, Slope>) -> Slope {
-        match self {
-            Self::Condition(measure) => measure.value_at(model, seen),
-            Self::Mode(function) => function.while_moving(model, seen),
-            Self::Switch(k) => {
+        match &self.function {
+            Function::Condition(measure) => measure.value_at(model, seen),
+            Function::Mode(function) => function.while_moving(model, seen),
+            Function::Switch(k) => {
                 let mut sigma = vec![Slope::constant(f64::NAN); model.switches.len()];
                 switches::functions(model, seen.motions, seen.acting(), &mut sigma);
                 sigma[*k]
