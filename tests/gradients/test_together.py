@@ -8,7 +8,7 @@ EXACT = kp.DOP853(rtol=1e-12, atol=1e-14)
 
 
 def pair(acts: float) -> kp.Case:
-    """Two balls that reach the floor at one time; a force that is zero now acts on the second one."""
+    """Two balls that reach the floor at one time; a force that is zero acts on the second one."""
     numbers = {"g": 9.0, "h": 2.0, "K": 1e9, "acts": acts}
     m = kp.Model("pair", gravity=(0, "-g"), parameters=numbers)
     for name in ("one", "two"):

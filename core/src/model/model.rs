@@ -142,6 +142,16 @@ fn with_phase<S: Real>(
     element
 }
 
+impl<S> Model<S> {
+    /// The name of the element to which a switch belongs.
+    pub fn owner_name(&self, owner: SwitchOwner) -> &str {
+        match owner {
+            SwitchOwner::Constraint(k) => &self.constraints[k].name,
+            SwitchOwner::Force(k) => &self.forces[k].name,
+        }
+    }
+}
+
 /// Adds the switches of curves to the list.
 fn curve_switches<S: Real>(constraints: &mut [ConstraintItem<S>], switches: &mut Vec<Switch>) {
     for (k, item) in constraints.iter_mut().enumerate() {

@@ -1,6 +1,5 @@
 //! The switches of a model: where laws and forces are not smooth.
 
-use super::Model;
 use crate::expression::{Boundaries, Knots, Tape};
 use std::sync::Arc;
 
@@ -11,16 +10,6 @@ pub enum SwitchOwner {
     Constraint(usize),
     /// A force, by its index.
     Force(usize),
-}
-
-impl SwitchOwner {
-    /// The name of the element.
-    pub fn name<S>(self, model: &Model<S>) -> &str {
-        match self {
-            Self::Constraint(k) => &model.constraints[k].name,
-            Self::Force(k) => &model.forces[k].name,
-        }
-    }
 }
 
 /// A switch of a law, or of a force itself.

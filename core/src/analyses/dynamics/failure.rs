@@ -249,7 +249,7 @@ fn at_switch(model: &Model, t: f64, breakdown: Breakdown) -> Box<Failure> {
         Breakdown::TooFast(switch) => {
             let Switch { owner, law, .. } = model.switches[switch];
             let what = if law { "a law of " } else { "" };
-            return Failure::too_fast(&format!("{what}{}", owner.name(model)), t);
+            return Failure::too_fast(&format!("{what}{}", model.owner_name(owner)), t);
         }
         Breakdown::Jump { constraint, position, values } => {
             let message = LawJump { constraint, position, values }.describe(model, t);
@@ -271,7 +271,7 @@ fn at_switch(model: &Model, t: f64, breakdown: Breakdown) -> Box<Failure> {
     let message = format!(
         "{}{} switches back and forth at t = {t:.6} s: on both sides of its condition the motion returns to it",
         if law { "a law of " } else { "" },
-        owner.name(model)
+        model.owner_name(owner)
     );
     let hint = "use a friction element, which may stick and whose load may be a law; or replace the jump by a steep smooth \
                 function: sign(x) by tanh(x/x0), with x0 small against the usual x";

@@ -141,7 +141,7 @@ pub(super) fn changed_constraints(model: &Model, changes: &[(usize, f64)]) -> Ve
 
 fn too_many(model: &Model, tape: &Tape, t0: f64) -> Box<Failure> {
     let owner = model.switches[tape.switch_range().start].owner;
-    let name = owner.name(model).to_string();
+    let name = model.owner_name(owner).to_string();
     let message = format!("a law of {name} has more than a million switches in time");
     let hint = "the run would step to each of them: use a slower law, or a smooth mean value";
     Reason::Law { t: t0, name, message, hint }.into()

@@ -69,7 +69,7 @@ impl Trigger {
     /// The triggers of switches that change.
     pub fn of_switches(model: &Model, held: &HeldPieces) -> Vec<Self> {
         let of = |k: &usize| {
-            let name = format!("the switch of {}", model.switches[*k].owner.name(model));
+            let name = format!("the switch of {}", model.owner_name(model.switches[*k].owner));
             Self { name, function: Function::Switch(*k) }
         };
         held.causes.iter().map(of).list()
