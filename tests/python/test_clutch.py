@@ -68,7 +68,7 @@ def test_a_freewheel_lets_the_driven_side_run_ahead(scale: tuple[float, float]) 
     m.coordinate_driver("drive", "i.angle", value="(w*t)^2/2 + 2 - 2*cos(w*t)")
     start = kp.assemble(m, set={"j.omega": 0.0})
     sol = kp.dynamics(m, t_end=8.0 / rate, start=start, method=EXACT, output_step=0.01 / rate)
-    # the drive slows down from cos x = -1/2 on; it catches up where x + 2 sin x has that value again
+    # the drive slows down from cos x = -1/2 on; it catches up at that speed
     ahead = 2 * np.pi / 3
     top = ahead + np.sqrt(3.0)
     assert sol.events["clutch.slip"].t[0] == pytest.approx(ahead / rate, rel=1e-9)
