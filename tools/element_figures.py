@@ -92,6 +92,7 @@ def rack() -> kp.State:
 
 MODELS: dict[str, Callable[[], kp.State]] = {
     "bushing": sleeve,
+    "clutch": lambda: on_a_wheel(lambda m: m.clutch("brake", "ground", "wheel", capacity=2)),
     "constraint": wire,
     "coupling": coupled,
     "motor": lambda: on_a_wheel(lambda m: m.motor("motor", "wheel", stall_torque=2, free_speed=10)),

@@ -235,6 +235,22 @@ def sticking(of: Units) -> Made:
     return Made(m, measures, {"block.x": 0.0, "block.vx": of.near(0.6) * v}, end=4.0, changes=True)
 
 
+def clutched(of: Units) -> Made:
+    """Two discs, the second of which runs ahead where the first one is slowed down."""
+    m = of.model(
+        T=(2, of.torque), c=(0.5, of.torque / of.rate), J=(1, of.inertia), P=(0.5, of.torque)
+    )
+    m.ground.points(O=(0, 0))
+    for name in ("one", "two"):
+        m.body(name, mass=of.mass, inertia="J", points={"O": (0, 0)})
+        m.revolute(f"{name}_pin", "ground.O", f"{name}.O")
+    m.clutch("wheel", "one", "two", capacity="T + P * sin(one.angle)", one_way=True)
+    m.torsion_spring("slows", "ground", "one", damping="c")
+    start = {"one.omega": of.near(3) * of.rate, "two.omega": 0.0}
+    measures = ["two.angle.final", "one.omega.final", "wheel.torque.max", "wheel.slip.final"]
+    return Made(m, [*measures, "energy.dissipated.final"], start, end=3.0, changes=True)
+
+
 def stopped(of: Units) -> Made:
     """A bar between a hard stop and a soft one."""
     m = pendulum(
@@ -332,6 +348,7 @@ FORCES: list[Maker] = [
     stalled,
     rubbing,
     sticking,
+    clutched,
     stopped,
     stopped_below,
     touching,

@@ -167,6 +167,22 @@ macro_rules! forces {
             pub fn limit(&self, at: &Situation<'_, S>) -> (S, Wrench<S>) {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::limit(e, at),)+ }
             }
+            /// Whether friction acts in one direction only.
+            pub fn only_pushes(&self) -> bool {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::only_pushes(e),)+ }
+            }
+            /// The [limit](Force::limit) in the direction of the effort for a multiplier of this sign.
+            pub fn limit_against(
+                &self,
+                at: &Situation<'_, S>,
+                multiplier: S,
+            ) -> (S, Wrench<S>) {
+                let (limit, slope) = self.limit(at);
+                match self.only_pushes() {
+                    true => (S::select(multiplier, S::zero(), limit), Wrench::zero()),
+                    false => (limit, slope),
+                }
+            }
             /// The side at which a contact or stop touches.
             pub fn side(&self, at: &Situation<'_, S>) -> f64 {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::side(e, at),)+ }

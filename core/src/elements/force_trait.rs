@@ -292,6 +292,13 @@ pub trait Force: Element {
         (S::zero(), Wrench::zero())
     }
 
+    /// Whether friction acts in one direction only, as a freewheel does: its effort on body j is not negative.
+    #[inline]
+    fn only_pushes<S>(e: &Self::Over<S>) -> bool {
+        let _ = e;
+        false
+    }
+
     /// The side at which a contact or stop touches: -1 for a lower limit, +1 for an upper limit.
     #[inline]
     fn side<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> f64 {

@@ -84,6 +84,7 @@ pub mod drivers {
 pub mod forces {
     mod actuator;
     mod bushing;
+    mod clutch;
     mod contact;
     mod friction;
     mod generalized_force;
@@ -96,6 +97,7 @@ pub mod forces {
 
     pub use actuator::Actuator;
     pub use bushing::Bushing;
+    pub use clutch::Clutch;
     pub use contact::{Contact, Resting};
     pub use friction::Friction;
     pub use generalized_force::GeneralizedForce;
@@ -189,6 +191,7 @@ forces! {
     GeneralizedForce,
     Motor,
     Friction,
+    Clutch,
     Stop,
     Contact,
     #[cfg(feature = "test-elements")] Lag,

@@ -203,15 +203,16 @@ fn following<S: Real>(
     motions: &Motions<S>,
     acting: Acting<'_, S>,
 ) -> S {
-    let limit = |k: usize| {
+    let own = multiplier(model, leader, acting);
+    let limit = |k: usize, own: S| {
         let at = situation(model, k, motions, Acting { lam: None, ..acting });
         let reaction = reaction(model, k, motions, acting.lam, acting.t);
-        let own = &acting.z[model.layout.states[k].clone()];
+        let z = &acting.z[model.layout.states[k].clone()];
         let element = at_state(model, &model.forces[k], motions, acting);
-        element.limit(&Situation { reaction, z: own, ..at }).0
+        element.limit_against(&Situation { reaction, z, ..at }, own).0
     };
-    let most = limit(leader);
-    let part = multiplier(model, leader, acting) * limit(k) / most;
+    let most = limit(leader, own);
+    let part = own * limit(k, S::constant(sense) * own) / most;
     S::select(most, S::constant(sense) * part, S::zero())
 }
 
@@ -245,7 +246,14 @@ pub fn reserve<S: Real>(
     let element = at_state(model, item, motions, acting);
     let at = reported(model, k, motions, acting);
     match (item.mode, element.behaviour()) {
-        (Mode::Holds(_), Some(Behaviour::Sticks)) => element.limit(&at).0 - at.multiplier.abs(),
+        (Mode::Holds(_), Some(Behaviour::Sticks)) => {
+            let left = element.limit(&at).0 - at.multiplier.abs();
+            if element.only_pushes() {
+                left.min(-at.multiplier)
+            } else {
+                left
+            }
+        }
         (Mode::Holds(side), _) => S::constant(side) * at.multiplier,
         _ => S::constant(f64::INFINITY),
     }

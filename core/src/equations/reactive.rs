@@ -14,8 +14,7 @@
 //! There may be several solutions or none. The solution of the motion is the one that follows continuously from the
 //! solution without these forces, as a factor f on the forces grows from 0 to 1. The determinant of I - f ∂e/∂λ S is 1 at
 //! f = 0. If it becomes zero before f = 1, the forces exceed the reactions that balance them: a friction paradox
-//! (Painlevé 1895). Newton's method begins at λ₀ with f = 1. Only if it fails, f grows in steps. The result does not
-//! depend on earlier evaluations.
+//! (Painlevé 1895). Newton's method begins at λ₀ with f = 1. Only if it fails, f grows in steps.
 
 use super::forces::{self, Acting};
 use super::kinematics::Motions;
@@ -235,14 +234,17 @@ impl<'m, S: Real> Sources<'m, S> {
             }
             Effort::Follows { own, leader, row, sense } => {
                 let [own, leader] = [&self.bearings[own], &self.bearings[leader]];
-                let most = leader.value(ForceElement::limit, lam, one, &mut |_, _| {});
+                let under = |own: S| {
+                    move |e: &ForceElement<S>, at: &Situation<'_, S>| e.limit_against(at, own)
+                };
+                let most = leader.value(under(lam[row]), lam, one, &mut |_, _| {});
                 let per_limit = S::select(most, -S::constant(sense) / most, S::zero());
                 let part = per_limit * lam[row];
                 let scale = if limits { one } else { S::zero() };
                 let mut of_limit = |row, by: S| slope(row, scale * by);
-                let limit = own.value(ForceElement::limit, lam, part, &mut of_limit);
+                let limit = own.value(under(-part * most), lam, part, &mut of_limit);
                 let per_most = S::select(most, -part * limit / most, S::zero());
-                leader.value(ForceElement::limit, lam, per_most, &mut of_limit);
+                leader.value(under(lam[row]), lam, per_most, &mut of_limit);
                 slope(row, per_limit * limit);
                 part * limit
             }
@@ -368,7 +370,6 @@ impl<S: Real> Path<'_, S> {
 }
 
 /// Solves A x = b, where A is given by its columns. None if the determinant of A is not positive.
-///
 /// Rows are not exchanged. If A is far from the unit matrix, the factor of the forces takes smaller steps.
 fn eliminate<S: Real>(columns: &mut [Vec<S>], mut b: Vec<S>) -> Option<Vec<S>> {
     let n = b.len();

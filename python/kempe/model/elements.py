@@ -769,6 +769,36 @@ class Friction(Element):
 
 
 @dataclass(frozen=True)
+class Clutch(Element):
+    """An element of type ``clutch``.
+
+    Friction clutch or brake: with ω = omega_j - omega_i, the torque on body j is -capacity ×
+    sign ω while the clutch slips, and any torque up to the capacity while it sticks. The
+    opposite torque acts on body i. With `one_way`, the torque on body j is never negative: body
+    i drives body j, and body j may run ahead.
+
+    Attributes:
+        i: Body i: the driving side, or ground for a brake.
+        j: Body j: the driven side.
+        capacity: Largest torque; may use `t` and the state. Negative values count as 0 [N*m].
+        one_way: Whether body j may run ahead of body i freely.
+    """
+
+    i: str
+    j: str
+    capacity: Law
+    one_way: bool = False
+    section: ClassVar[str] = "forces"
+    kind: ClassVar[str] = "clutch"
+    value_kinds: ClassVar[Mapping[str, str]] = {
+        "i": "body",
+        "j": "body",
+        "capacity": "law",
+        "one_way": "flag",
+    }
+
+
+@dataclass(frozen=True)
 class Stop(Element):
     """An element of type ``stop``.
 
@@ -1494,6 +1524,23 @@ class ElementMethods:
                 load=load,
             )
         )
+
+    def clutch(self, name: str, i: str, j: str, *, capacity: Law, one_way: bool = False) -> Clutch:
+        """Add an element of type ``clutch`` and return it.
+
+        Friction clutch or brake: with ω = omega_j - omega_i, the torque on body j is -capacity ×
+        sign ω while the clutch slips, and any torque up to the capacity while it sticks. The
+        opposite torque acts on body i. With `one_way`, the torque on body j is never negative: body
+        i drives body j, and body j may run ahead.
+
+        Args:
+            name: its name in the model.
+            i: Body i: the driving side, or ground for a brake.
+            j: Body j: the driven side.
+            capacity: Largest torque; may use `t` and the state. Negative values count as 0 [N*m].
+            one_way: Whether body j may run ahead of body i freely.
+        """
+        return self._add(Clutch(name, i=i, j=j, capacity=capacity, one_way=one_way))
 
     def stop(
         self,

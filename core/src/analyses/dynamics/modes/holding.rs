@@ -278,14 +278,18 @@ fn worst(
         let (Mode::Holds(_), Some(row)) = (item.mode, item.held_row) else { continue };
         let reserve = forces::reserve(phase, k, &motions, acting);
         let sticks = matches!(item.element.behaviour(), Some(Behaviour::Sticks));
-        let part = reserve / if sticks { lam[row].abs().max(NOISE * scale) } else { scale };
+        // at the end of a push, the multiplier is zero
+        let pushes = sticks && item.element.only_pushes();
+        let own = if pushes { scale } else { lam[row].abs().max(NOISE * scale) };
+        let part = reserve / if sticks { own } else { scale };
         let least = match (ended.contains(&k), sticks) {
             (true, _) => USED_UP,
             (_, true) => -ROUNDING,
             (_, false) => -NOISE,
         };
         if part < least && found.is_none_or(|(most, ..)| part < most) {
-            found = Some((part, k, sticks.then_some(lam[row].signum())));
+            let sign = if pushes && reserve == -lam[row] { 1.0 } else { lam[row].signum() };
+            found = Some((part, k, sticks.then_some(sign)));
         }
     }
     Ok(found.map(|(_, k, sign)| (k, sign)))

@@ -1,0 +1,117 @@
+"""Clutches and brakes against closed forms."""
+
+import kempe as kp
+import numpy as np
+import pytest
+
+EXACT = kp.DOP853(rtol=1e-12, atol=1e-14)
+#: Inertias in kg·m² and rates in rad/s.
+SCALES = [(1.0, 1.0), (1e-6, 300.0), (1e4, 0.1)]
+
+
+def shafts(numbers: dict[str, float], **clutch: object) -> kp.Model:
+    """Two discs on one axis with a clutch between them."""
+    m = kp.Model("shafts", gravity=(0, 0), parameters=numbers)
+    m.ground.points(O=(0, 0))
+    for name in ("i", "j"):
+        m.body(name, mass=1.0, inertia=f"J_{name}", points={"O": (0, 0)})
+        m.revolute(f"pin_{name}", "ground.O", f"{name}.O")
+    m.clutch("clutch", "i", "j", capacity="T", **clutch)
+    return m
+
+
+@pytest.mark.parametrize("one_way", [False, True])
+@pytest.mark.parametrize("scale", SCALES)
+def test_two_shafts_synchronise(scale: tuple[float, float], one_way: bool) -> None:
+    inertia, rate = scale
+    numbers = {"J_i": 2.0 * inertia, "J_j": 3.0 * inertia, "T": inertia * rate**2}
+    m = shafts(numbers, one_way=one_way)
+    start = kp.assemble(m, set={"i.omega": rate, "j.omega": 0.0})
+    sol = kp.dynamics(m, t_end=3.0 / rate, start=start, method=EXACT)
+    # (1/2 + 1/3) T t = rate
+    (t,) = sol.events["clutch.stick"].t
+    assert t == pytest.approx(rate / (5 / 6 * rate**2), rel=1e-11)
+    assert sol.events["clutch.slip"].t.size == 0
+    np.testing.assert_allclose(sol["j.omega"][-1], 2 / 5 * rate, rtol=1e-11)
+    np.testing.assert_allclose(sol["i.omega"][-1], 2 / 5 * rate, rtol=1e-11)
+    heat = 0.5 * (2 * 3 / 5) * inertia * rate**2
+    np.testing.assert_allclose(sol.dissipated("clutch")[-1], heat, rtol=1e-10)
+    assert sol["clutch.torque"][0] == pytest.approx(numbers["T"])
+    assert sol["clutch.sticking"][-1] == 1.0
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_a_brake_holds_up_to_its_capacity(scale: tuple[float, float]) -> None:
+    inertia, rate = scale
+    m = kp.Model("brake", gravity=(0, 0), parameters={"J": inertia, "T": inertia * rate**2})
+    m.ground.points(O=(0, 0))
+    m.body("drum", mass=1.0, inertia="J", points={"O": (0, 0)})
+    m.revolute("pin", "ground.O", "drum.O")
+    m.clutch("brake", "ground", "drum", capacity="T")
+    m.generalized_force("load", "drum.angle", value=f"0.5 * T * t * {rate}")
+    start = kp.assemble(m, set={"drum.omega": 0.0})
+    sol = kp.dynamics(m, t_end=4.0 / rate, start=start, method=EXACT)
+    (t,) = sol.events["brake.slip"].t
+    assert t == pytest.approx(2.0 / rate, rel=1e-10)
+    # J ω' = T (t/2 - 1)
+    s = 4.0
+    np.testing.assert_allclose(sol["drum.omega"][-1], rate * (s**2 / 4 - s + 1), rtol=1e-9)
+    np.testing.assert_allclose(sol["brake.torque"][-1], -inertia * rate**2, rtol=1e-12)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_a_freewheel_lets_the_driven_side_run_ahead(scale: tuple[float, float]) -> None:
+    inertia, rate = scale
+    numbers = {"J_i": inertia, "J_j": inertia, "T": 1e3 * inertia * rate**2, "w": rate}
+    m = shafts(numbers, one_way=True)
+    # the drive has the speed w (x + 2 sin x), x = w t
+    m.coordinate_driver("drive", "i.angle", value="(w*t)^2/2 + 2 - 2*cos(w*t)")
+    start = kp.assemble(m, set={"j.omega": 0.0})
+    sol = kp.dynamics(m, t_end=8.0 / rate, start=start, method=EXACT, output_step=0.01 / rate)
+    # the drive slows down from cos x = -1/2 on; it catches up at that speed
+    ahead = 2 * np.pi / 3
+    top = ahead + np.sqrt(3.0)
+    assert sol.events["clutch.slip"].t[0] == pytest.approx(ahead / rate, rel=1e-9)
+    again = sol.events["clutch.stick"].t[-1] * rate
+    assert again + 2 * np.sin(again) == pytest.approx(top, rel=1e-9) and again > ahead + 1
+    x = sol.t * rate
+    free = (x > ahead) & (x < again)
+    np.testing.assert_allclose(sol["j.omega"][free], top * rate, rtol=1e-9)
+    np.testing.assert_allclose(
+        sol["j.omega"][~free], rate * (x + 2 * np.sin(x))[~free], rtol=1e-8, atol=1e-9 * rate
+    )
+    torque = sol["clutch.torque"]
+    assert (torque >= -1e-9 * inertia * rate**2).all()
+    pushes = (x < ahead - 0.01) | (x > again + 0.01)
+    np.testing.assert_allclose(
+        torque[pushes], (inertia * rate**2 * (1 + 2 * np.cos(x)))[pushes], rtol=1e-7
+    )
+    np.testing.assert_allclose(torque[free], 0.0, atol=1e-11 * inertia * rate**2)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_freewheel_beside_a_clutch_helps_in_its_direction_only(sign: int) -> None:
+    m = kp.Model("pair", gravity=(0, 0), parameters={"T": 1.0})
+    m.ground.points(O=(0, 0))
+    for name in ("i", "j"):
+        m.body(name, mass=1.0, inertia=1.0, points={"O": (0, 0)})
+        m.revolute(f"pin_{name}", "ground.O", f"{name}.O")
+    m.clutch("plain", "i", "j", capacity="T")
+    m.clutch("freewheel", "i", "j", capacity="2 * T", one_way=True)
+    m.generalized_force("load", "i.angle", value=f"{sign} * 2 * T * t")
+    sol = kp.dynamics(m, kp.assemble(m, set={"i.omega": 0, "j.omega": 0}), t_end=5.0, method=EXACT)
+    # the clutches transmit t, up to 3 forward and 1 backward
+    most = 3.0 if sign > 0 else 1.0
+    assert sol.events["plain.slip"].t == pytest.approx([most], rel=1e-9)
+    expected = sign * (most**2 / 2 + most * (5.0 - most))
+    assert sol["j.omega"][-1] == pytest.approx(expected, rel=1e-9)
+    both = sol["plain.torque"] + sol["freewheel.torque"]
+    np.testing.assert_allclose(both, sign * np.minimum(sol.t, most), rtol=1e-9, atol=1e-12)
+
+
+def test_a_clutch_needs_two_bodies_and_a_capacity() -> None:
+    m = kp.Model("faults")
+    m.body("disc", mass=1, inertia=1)
+    m.clutch("clutch", "ground", "disc", capacity=-1)
+    with pytest.raises(kp.ModelError, match=r"clutch\.capacity: must not be negative"):
+        m.compile()
