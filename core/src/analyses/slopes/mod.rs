@@ -17,6 +17,7 @@
 //! | `limits`, `turning` | limits of motions |
 //! | `modes` | the numbers of modes |
 //! | `spectrum` | the derivatives of eigenvalues |
+//! | `by_state` | the derivatives of quantities with respect to the state |
 //! | `driven` | the derivatives of a motion that drivers determine |
 //! | `reader` | measures with derivatives |
 //! | `statistics` | statistics with derivatives |
@@ -28,6 +29,7 @@
 
 mod at_rest;
 mod at_times;
+mod by_state;
 mod driven;
 mod equilibrium;
 mod extremes;
@@ -49,4 +51,5 @@ mod turning;
 mod variables;
 
 pub use at_times::AtTimes;
+pub use by_state::by_state;
 pub use gradient::{Gradient, Remark};

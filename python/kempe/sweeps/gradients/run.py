@@ -143,7 +143,8 @@ def _left(plan: Plan, one: Wanted) -> str:
         return _AT_OUTPUTS
     kind = plan.case.analyses[plan.analysis]["type"]
     statistics, reads = [one.statistic] if one.statistic else [], reads_quantities(kind, [one.text])
-    return "" if _core.sweeps(plan.case.model.compile().core, statistics, reads) else _SINGLE
+    core = plan.case.model.compile().core
+    return "" if _core.sweeps(core, statistics, reads, True) else _SINGLE
 
 
 def _fields(case: Case) -> dict[str, float]:
