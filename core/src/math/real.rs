@@ -267,12 +267,15 @@ impl Real for f64 {
     }
 }
 
+/// The derivative of a function at x by the argument with an index.
+pub type ByArgument<'a> = &'a dyn Fn(&[f64], usize) -> f64;
+
 /// A function of numbers that is given by its values, and perhaps by its derivatives.
 pub trait ByValues {
     /// The value at x.
     fn value(&self, x: &[f64]) -> f64;
     /// The derivatives with respect to the arguments, as functions; None if they are not known.
-    fn slopes(&self) -> Option<&dyn Fn(&[f64], usize) -> f64> {
+    fn slopes(&self) -> Option<ByArgument<'_>> {
         None
     }
 }

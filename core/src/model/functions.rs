@@ -1,6 +1,6 @@
 //! Laws that the calling program computes: functions of time and state without a formula.
 
-use crate::math::{ByValues, Real};
+use crate::math::{ByArgument, ByValues, Real};
 use std::cell::RefCell;
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -125,7 +125,7 @@ impl<V: Fn(&[f64]) -> f64, D: Fn(&[f64], usize) -> f64> ByValues for Differentia
     fn value(&self, x: &[f64]) -> f64 {
         (self.value)(x)
     }
-    fn slopes(&self) -> Option<&dyn Fn(&[f64], usize) -> f64> {
+    fn slopes(&self) -> Option<ByArgument<'_>> {
         Some(&self.slope)
     }
 }
