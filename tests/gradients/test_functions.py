@@ -177,6 +177,13 @@ def test_refusals_name_the_law_and_a_remedy() -> None:
     assert run(lambda *_: {"rod.omega": 1.0})["rod.angle.final", "L"] != 0.0
 
 
+def test_modes_need_second_derivatives() -> None:
+    m = pendulum(Muscle(*SCALES[0]).law, SCALES[0])
+    case = kp.Case(m, {"set": {"rod.angle": 0.2}}, [kp.Equilibrium(), kp.Modes()])
+    g = kp.gradient(case, ["frequency[0]"], ["L"])
+    assert np.isnan(g.jacobian).all() and "write formulas" in g.remarks["frequency[0]", "L"]
+
+
 def test_slopes_with_other_values_of_the_parameters() -> None:
     """A fit and an optimization differentiate at values that the case does not have."""
     muscle, found = Muscle(1.0, 1.0, 1.0), []

@@ -169,6 +169,14 @@ def test_what_has_no_derivatives_yet_says_so(case: kp.Case) -> None:
     assert "1 remark>" in repr(g)
 
 
+def test_a_method_without_slopes_is_refused_by_name(case: kp.Case) -> None:
+    case = case.with_analysis("swing", method={"type": "generalized_alpha", "step": 0.01})
+    g = kp.gradient(case, ["rod.angle.final"], ["mass"], analysis="swing")
+    told = g.remarks["rod.angle.final", "mass"]
+    assert "generalized_alpha" in told and "choose method auto or radau" in told
+    assert np.isnan(g.jacobian).all() and np.isfinite(g.measures["rod.angle.final"])
+
+
 def test_teeth_are_refused_by_name() -> None:
     m = kp.Model("two gears", gravity=(0, 0), parameters={"z": 20, "m": "2 mm"})
     m.ground.points(O=(0, 0), P=(0.05, 0))

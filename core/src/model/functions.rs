@@ -54,7 +54,7 @@ pub struct FunctionLaw {
     pub unit: String,
     /// None if the law is computed at each evaluation.
     pub sampling: Option<Sampling>,
-    /// Whether the host knows the derivatives.
+    /// Whether the host has the derivatives.
     pub slopes: bool,
 }
 
@@ -111,17 +111,17 @@ impl Functions {
                 slopes.get(k).copied().unwrap_or(0.0)
             }
         };
-        S::of_values(&Differentiated { value, slope }, x)
+        S::of_values(&LawWithSlopes { value, slope }, x)
     }
 }
 
 /// A law with its derivatives.
-struct Differentiated<V, D> {
+struct LawWithSlopes<V, D> {
     value: V,
     slope: D,
 }
 
-impl<V: Fn(&[f64]) -> f64, D: Fn(&[f64], usize) -> f64> ByValues for Differentiated<V, D> {
+impl<V: Fn(&[f64]) -> f64, D: Fn(&[f64], usize) -> f64> ByValues for LawWithSlopes<V, D> {
     fn value(&self, x: &[f64]) -> f64 {
         (self.value)(x)
     }

@@ -1,6 +1,5 @@
 //! The energies that force elements dissipate, with derivatives: their powers summed along a run.
 
-use super::reader::{Corner, SlopeRow};
 use crate::analyses::measures::Measure;
 use crate::analyses::so_far::{PLACES, WEIGHTS};
 use crate::equations::sensitivity::{Slope, ABREAST};
@@ -51,10 +50,10 @@ impl Dissipation {
     }
 
     /// Begins with energies of zero at a time with derivatives `late`.
-    pub fn begin(&mut self, row: &SlopeRow, late: &[f64]) {
-        self.t = row.t;
+    pub fn begin(&mut self, values: &[[f64; 2]], late: &[f64]) {
+        self.t = self.bounds[0];
         self.slopes.fill(vec![0.0; late.len()]);
-        self.move_by(row, late, -1.0);
+        self.move_by(values, late, -1.0);
     }
 
     /// The end of the present step, at most `t`, and the points in it with their weights.
@@ -68,25 +67,20 @@ impl Dissipation {
         (end, points)
     }
 
-    /// Adds the powers of a row times a duration.
-    pub fn add(&mut self, duration: f64, row: &SlopeRow) {
-        for (k, (value, slopes)) in self.values.iter_mut().zip(&mut self.slopes).enumerate() {
-            *value += duration * row.values[self.first + k][0];
-            let own = &row.slopes[self.first + k];
+    /// Adds the powers, among the values of all measures with their derivatives, times a duration.
+    pub fn add(&mut self, duration: f64, values: &[[f64; 2]], all: &[Vec<f64>]) {
+        for (k, (sum_of_values, slopes)) in self.values.iter_mut().zip(&mut self.slopes).enumerate()
+        {
+            *sum_of_values += duration * values[self.first + k][0];
+            let own = &all[self.first + k];
             slopes.iter_mut().zip(own).for_each(|(sum, slope)| *sum += duration * slope);
         }
     }
 
-    /// Goes beyond a change of the motion.
-    pub fn turn(&mut self, corner: &Corner) {
-        self.move_by(&corner.sides[0], &corner.late, 1.0);
-        self.move_by(&corner.sides[1], &corner.late, -1.0);
-    }
-
-    /// Adds the powers times derivatives of a time and a sign to the derivatives.
-    fn move_by(&mut self, row: &SlopeRow, late: &[f64], sign: f64) {
+    /// Adds the powers, among the values of all measures, times derivatives of a time and a sign to the derivatives.
+    pub fn move_by(&mut self, values: &[[f64; 2]], late: &[f64], sign: f64) {
         for (k, slopes) in self.slopes.iter_mut().enumerate() {
-            let power = row.values[self.first + k][0];
+            let power = values[self.first + k][0];
             slopes.iter_mut().zip(late).for_each(|(slope, late)| *slope += sign * power * late);
         }
     }

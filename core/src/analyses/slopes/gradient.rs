@@ -161,18 +161,15 @@ impl Sweep {
         });
         let mut found = found.list();
         for (number, (k, _)) in self.statistics().enumerate() {
-            let (value, slopes) = (values[number], found[number].clone());
-            match &series[k] {
-                Some(series) if !of_run[k] => {
-                    if slopes.is_ok_and(|slopes| is_cusp(series.outputs(), value, &slopes, row)) {
-                        found[number] = Err(ZERO.to_string());
-                    }
+            let reason = match (&found[number], &series[k]) {
+                (Ok(slopes), Some(series)) if !of_run[k] => {
+                    is_cusp(series.outputs(), values[number], slopes, row).then_some(ZERO)
                 }
-                _ => {
-                    if slopes.is_ok_and(|slopes| slopes.iter().any(|x| x.is_nan())) {
-                        found[number] = Err(OF_RUN.to_string());
-                    }
-                }
+                (Ok(slopes), _) => slopes.iter().any(|x| x.is_nan()).then_some(OF_RUN),
+                _ => None,
+            };
+            if let Some(reason) = reason {
+                found[number] = Err(reason.to_string());
             }
         }
         Ok(gathered(values, found, count))

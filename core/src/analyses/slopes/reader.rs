@@ -129,13 +129,13 @@ impl<'a> Reader<'a> {
                 StateSlopes::Dynamics(motion) => motion.late_start().to_vec(),
                 StateSlopes::Driven(..) => vec![0.0; row.variables],
             };
-            self.dissipation.begin(&row, &late);
+            self.dissipation.begin(&row.values, &late);
             return Ok(());
         }
         let (end, points) = self.dissipation.panel(t);
         for [t, duration] in points {
             let row = self.instant(t)?;
-            self.dissipation.add(duration, &row);
+            self.dissipation.add(duration, &row.values, &row.slopes);
         }
         self.dissipation.t = end;
         Ok(())
@@ -213,7 +213,9 @@ impl<'a> Reader<'a> {
         before.values.truncate(self.measures.len());
         let mut corner = Corner { late, names, sides: [before, after] };
         if !self.dissipation.forces.is_empty() {
-            self.dissipation.turn(&corner);
+            for (side, sign) in corner.sides.iter().zip([1.0, -1.0]) {
+                self.dissipation.move_by(&side.values, &corner.late, sign);
+            }
             corner.sides[1] = self.row(t, states, &[])?;
         }
         self.corners.push(corner);
