@@ -10,8 +10,8 @@ use crate::model::Model;
 pub(super) struct Dissipation {
     /// The force elements.
     pub forces: Vec<usize>,
-    /// The index of the first measure of their powers.
-    first: usize,
+    /// The index of the first measure of their powers, which follow the other measures.
+    pub first: usize,
     /// The ends of the steps of the run.
     bounds: Vec<f64>,
     /// The time of the energies; NaN before the start.

@@ -160,7 +160,7 @@ impl<'a> Reader<'a> {
     /// The reason for which there are no derivatives.
     pub fn end(&mut self, t: f64) -> Result<(Vec<Vec<Slope>>, Vec<f64>), String> {
         let row = self.at(t)?;
-        let late = match row.slopes.is_empty() {
+        let late = match self.dissipation.first == 0 {
             true => vec![0.0; row.variables],
             false => {
                 let name = "the condition that ends the motion";
