@@ -151,3 +151,19 @@ def test_where_there_is_no_second_derivative() -> None:
     assert g.hessian is not None and np.isnan(g.hessian).all() and g.remarks
     plain = kp.gradient(case, ["crank.angle.final"], ["a"], analysis="turn")
     assert plain.hessian is None
+
+
+@pytest.mark.parametrize("scale", SCALES[:2])
+def test_the_largest_angle_of_a_rocker(scale: tuple[float, float, float]) -> None:
+    """There, crank and coupler lie on one line, one over the other."""
+    m, numbers = four_bar(scale)
+    start = {"set": {"crank.angle": 2.2}, "guess": GUESS}
+    turn = kp.Kinematics(over="crank.angle", range=(2.2, 4.7), n=20)
+    g = kp.gradient(kp.Case(m, start, [turn]), ["rocker.angle.max"], list(numbers), second=True)
+
+    def largest(**of: Any) -> Any:
+        way = of["L3"] - of["L2"]
+        inner = (of["L1"] ** 2 + of["L4"] ** 2 - way**2) / (2 * of["L1"] * of["L4"])
+        return mp.pi - mp.acos(inner)
+
+    agrees(g, "rocker.angle.max", largest, numbers)
