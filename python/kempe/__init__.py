@@ -133,6 +133,7 @@ if TYPE_CHECKING:
     from kempe.errors import SingularityError as SingularityError
     from kempe.lab_report import write_report as write_report
     from kempe.model.doubts import ModelWarning as ModelWarning
+    from kempe.model.functions import Function as Function
     from kempe.model.functions import FunctionWarning as FunctionWarning
     from kempe.model.functions import Sampled as Sampled
     from kempe.model.model import Model as Model
@@ -188,6 +189,7 @@ _HOME = {
     "Event": "analyses.event",
     "EventWarning": "results.events",
     "FileError": "errors",
+    "Function": "model.functions",
     "FunctionWarning": "model.functions",
     "Fit": "sweeps.fits",
     "GeneralizedAlpha": "analyses.options",

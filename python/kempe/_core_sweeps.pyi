@@ -78,8 +78,11 @@ def settling(
 ) -> tuple[bool, float | None]:
     """Whether a quantity changes, and its settling time, s; None if it does not settle."""
 
-def sweeps(model: Model, statistics: list[str], reads: bool) -> bool:
-    """Whether ``sweep`` serves a model and statistics; ``reads``: whether it reads quantities."""
+def sweeps(model: Model, statistics: list[str], reads: bool, slopes: bool) -> bool:
+    """Whether ``sweep`` serves a model and statistics; ``reads``: whether it reads quantities.
+
+    With ``slopes``, whether ``gradient`` does.
+    """
 
 def sweep(
     model: Model,
@@ -174,6 +177,9 @@ def measure(model: Model, text: str) -> tuple[list[str], str, bool, bool]:
 
 def measure_values(model: Model, text: str, t: _F, quantities: _F) -> _F:
     """Values of an expression, (n_t,), for the values of its quantities, (n_t, n)."""
+
+def measure_slopes(model: Model, names: list[str], x: _F) -> _F:
+    """Derivatives of quantities at x = (t, q, v, z) by x and the parameters, (n, n_x + n_p)."""
 
 def line_at(model: Model, joint: str, body: str) -> tuple[list[str], float | None]:
     """The pins and slides of a body besides a joint, and its line from there in its frame, rad."""

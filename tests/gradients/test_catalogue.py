@@ -20,8 +20,6 @@ STEPS = (1e-3, 2e-3, 4e-3), (2e-5, 4e-5, 8e-5)
 #: Largest error of a slope, as a part of its scale, and that of most slopes.
 MOST, USUAL = 1e-5, 1e-7
 ALL = [*JOINTS, *FORCES]
-#: The remark on the energy that one element dissipates.
-OF_ONE = "nor of the energy that one element dissipates"
 #: Numbers on which nothing depends: axes of a revolute joint turn the frame of its reaction.
 STILL = {slide_on_a_bar: {"a", "b"}}
 #: Numbers that cannot change a little, and a threshold.
@@ -96,19 +94,15 @@ def test_slopes_of_an_element(maker: Maker, seed: int) -> None:
     of, rate = made(maker, seed), Units(start_of(maker, seed)).rate
     for kind in of.analyses:
         g, error, doubt = compared(of, kind, rate)
-        told = {one for (measure, _), text in g.remarks.items() for one in [(measure, text)]}
-        # the only remarks: the energy that one element dissipates is summed along the run
-        assert all(m.endswith(".dissipated.final") and OF_ONE in text for m, text in told), told
-        remarked = np.isnan(g.jacobian)
-        assert remarked.sum() == len(g.remarks)
+        assert not g.remarks, kind
         # where differences do not settle, or a value is constant, they say nothing
         settled = doubt < MOST / 10
-        wrong = ~remarked & settled & ~(error < MOST)
+        wrong = settled & ~(error < MOST)
         names = list(g.measures), list(g.variables)
         told = {(names[0][k], names[1][j], error[k, j]) for k, j in np.argwhere(wrong).tolist()}
         assert not told, kind
-        assert (remarked | settled).mean() > 0.8
-        assert (error[~remarked & settled] < USUAL).mean() > 0.9
+        assert settled.mean() > 0.8
+        assert (error[settled] < USUAL).mean() > 0.9
         if kind == "dynamics":
             still = {name for name, of in zip(names[1], g.jacobian.T, strict=True) if not of.any()}
             assert still == STILL.get(maker, set())

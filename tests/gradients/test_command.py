@@ -52,11 +52,11 @@ def test_units_convert_the_table_and_the_file(
 
 def test_remarks_are_printed(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     written(folder, "")
-    words = ["--measure", "energy.kinetic.max", "--over", "mass", "--analysis", "swing"]
+    words = ["--measure", "energy.balance.max", "--over", "mass", "--analysis", "swing"]
     assert run(["gradient", "rod.toml", *words]) == 0
     told = capsys.readouterr().out
-    assert "mass *" in told and "* mass: of a quantity of a whole run, only final" in told
-    assert rows()[0]["slope"] == "" and "only final values" in rows()[0]["remark"]
+    assert "mass *" in told and "* mass: a balance is an error of the integration" in told
+    assert rows()[0]["slope"] == "" and "a balance is an error" in rows()[0]["remark"]
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ import kempe as kp
 import pytest
 from matplotlib.patches import Rectangle
 
-MEASURES = ["pin.max", "rod.angle.final", "energy.kinetic.max"]
+MEASURES = ["pin.max", "rod.angle.final", "energy.balance.max"]
 VARIABLES = ["length", "stiffness", "mass", "rod.angle"]
 
 

@@ -150,7 +150,7 @@ def test_unknown_pairs_are_refused(case: kp.Case) -> None:
         (["pin.max"], ["mass", "mass"], {}, "variables: one of them is given twice"),
         (["pin.max", "pin.max"], ["mass"], {}, "measures: one of them is given twice"),
         (["pin.max"], ["mass"], {"analysis": "swng"}, "unknown analysis 'swng'"),
-        (["pin.max"], ["mass"], {"second": True}, "second derivatives are not available yet"),
+        (["pin.max"], ["mass"], {"second": True}, "swing is of type dynamics, whose second"),
     ],
 )
 def test_invalid_requests(
@@ -162,11 +162,19 @@ def test_invalid_requests(
 
 
 def test_what_has_no_derivatives_yet_says_so(case: kp.Case) -> None:
-    g = kp.gradient(case, ["energy.kinetic.max", "pin.max"], ["mass"], analysis="swing")
-    assert g.measures["energy.kinetic.max"] == case.run()["swing"]["energy.kinetic"].max()
-    assert np.isnan(g["energy.kinetic.max", "mass"]) and np.isfinite(g["pin.max", "mass"])
-    assert set(g.remarks) == {("energy.kinetic.max", "mass")}
+    g = kp.gradient(case, ["energy.balance.max", "pin.max"], ["mass"], analysis="swing")
+    assert g.measures["energy.balance.max"] == case.run()["swing"]["energy.balance"].max()
+    assert np.isnan(g["energy.balance.max", "mass"]) and np.isfinite(g["pin.max", "mass"])
+    assert set(g.remarks) == {("energy.balance.max", "mass")}
     assert "1 remark>" in repr(g)
+
+
+def test_a_method_without_slopes_is_refused_by_name(case: kp.Case) -> None:
+    case = case.with_analysis("swing", method={"type": "generalized_alpha", "step": 0.01})
+    g = kp.gradient(case, ["rod.angle.final"], ["mass"], analysis="swing")
+    told = g.remarks["rod.angle.final", "mass"]
+    assert "generalized_alpha" in told and "choose method auto or radau" in told
+    assert np.isnan(g.jacobian).all() and np.isfinite(g.measures["rod.angle.final"])
 
 
 def test_teeth_are_refused_by_name() -> None:
@@ -196,7 +204,7 @@ def test_python_functions_are_refused_by_name(case: kp.Case) -> None:
     case.model.torque("brake", "rod", torque=lambda _, state: -0.1 * state["rod.omega"])
     with pytest.raises(kp.ModelError, match=r"forces\.brake\.torque is a Python function") as told:
         kp.gradient(case, ["pin.max"], ["mass"], analysis="swing")
-    assert told.value.hint == "write a formula or a table in its place"
+    assert "or give its derivatives: kp.Function(f, slopes=g)" in str(told.value.hint)
 
 
 def test_variables_in_the_formulas_of_an_analysis_have_a_remark(case: kp.Case) -> None:

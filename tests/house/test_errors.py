@@ -67,6 +67,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "Run.energies": RUN.energies,
     "measure": lambda: _core.measure(MODEL, "C.force"),
     "measure_values": lambda: _core.measure_values(MODEL, "C.force", TIMES, ROW[:, :1]),
+    "measure_slopes": lambda: _core.measure_slopes(MODEL, ["t"], ROW[0]),
     "instants": lambda: _core.instants(np.arange(2.0), TIMES, 9),
     "interpolate": lambda: _core.interpolate(
         np.arange(2.0), np.zeros((1, 2)), np.zeros((1, 2, 4)), TIMES
@@ -78,7 +79,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "integrals": lambda: _core.integrals(TIMES, TIMES),
     "row_norms": lambda: _core.row_norms(ROW),
     "settling": lambda: _core.settling(TIMES, TIMES),
-    "sweeps": lambda: _core.sweeps(MODEL, ["max"], True),
+    "sweeps": lambda: _core.sweeps(MODEL, ["max"], True, False),
     "sweep": lambda: _core.sweep(
         MODEL, "{}", "{}", '{"type": "dynamics", "t_end": 1}', [], [], [], [], np.zeros((0, 0)), 1
     ),

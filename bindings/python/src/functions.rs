@@ -16,17 +16,18 @@ thread_local! {
     static CALLED: RefCell<Vec<usize>> = const { RefCell::new(Vec::new()) };
 }
 
-/// A law as described by the Python package: element, field, index of its entry in a list, function, period and
-/// start.
-pub type Described = (String, String, Option<usize>, Py<PyAny>, Option<(f64, f64)>);
+/// A law as described by the Python package: element, field, index of its entry in a list, function, function of its
+/// derivatives by t, q, v, z and the parameters, period and start.
+pub type Described =
+    (String, String, Option<usize>, Py<PyAny>, Option<Py<PyAny>>, Option<(f64, f64)>);
 
 /// The functions of a model.
 #[derive(Debug)]
 struct Laws {
     /// Creates a state from an array (t, q, v, z).
     state: Py<PyAny>,
-    /// Path and function of each law.
-    laws: Vec<(String, Py<PyAny>)>,
+    /// Path, function, and function of the derivatives of each law.
+    laws: Vec<(String, Py<PyAny>, Option<Py<PyAny>>)>,
     last: Mutex<Option<Last>>,
 }
 
@@ -36,12 +37,13 @@ struct Last {
     x: Vec<f64>,
     state: Py<PyAny>,
     values: Vec<Option<f64>>,
+    slopes: Vec<Option<Vec<f64>>>,
 }
 
 /// Replaces laws in the definition by the Python functions.
 pub fn place(py: Python<'_>, definition: &mut Definition, state: Py<PyAny>, given: Vec<Described>) {
     let (mut laws, mut calls) = (Vec::new(), Vec::new());
-    for (k, (element, field, entry, function, sampling)) in given.iter().enumerate() {
+    for (k, (element, field, entry, function, slopes, sampling)) in given.iter().enumerate() {
         let found = definition.forces.iter_mut().find(|force| force.name == *element);
         let fields = found.map(|force| &mut force.fields).into_iter().flatten();
         let value = fields.into_iter().find(|(name, _)| name == field).map(|(_, value)| value);
@@ -58,9 +60,11 @@ pub fn place(py: Python<'_>, definition: &mut Definition, state: Py<PyAny>, give
             field: format!("{field}{number}"),
             unit: String::new(),
             sampling: sampling.map(|(period, start)| Sampling { period, start }),
+            slopes: slopes.is_some(),
         });
         let index = entry.map(|at| format!("[{at}]")).unwrap_or_default();
-        calls.push((format!("forces.{element}.{field}{index}"), function.clone_ref(py)));
+        let slopes = slopes.as_ref().map(|slopes| slopes.clone_ref(py));
+        calls.push((format!("forces.{element}.{field}{index}"), function.clone_ref(py), slopes));
     }
     let host = Laws { state, laws: calls, last: Mutex::new(None) };
     definition.functions = Some(Functions { laws, host: Arc::new(host) });
@@ -77,15 +81,25 @@ impl Host for Laws {
             f64::NAN
         })
     }
+
+    fn slopes(&self, law: usize, x: &[f64]) -> Vec<f64> {
+        if raised::waits() || !x.iter().all(|x| x.is_finite()) {
+            return Vec::new();
+        }
+        let found = Python::attach(|py| self.call_slopes(py, law, x));
+        found.unwrap_or_else(|error| {
+            raised::keep(error);
+            Vec::new()
+        })
+    }
 }
 
 impl Laws {
     fn call(&self, py: Python<'_>, law: usize, x: &[f64]) -> PyResult<f64> {
-        let state = match self.remembered(py, law, x) {
-            Some((_, Some(value))) => return Ok(value),
-            Some((state, None)) => state,
-            None => self.new_state(py, x)?,
-        };
+        if let Some(value) = self.with_last(x, |last| last.values[law]).flatten() {
+            return Ok(value);
+        }
+        let state = self.state(py, x)?;
         let called = Called::enter(self)
             .ok_or_else(|| self.fault(py, law, x, "needs its own value", RECURSION))?;
         let result = self.laws[law].1.bind(py).call1((x[0], state))?;
@@ -103,33 +117,38 @@ impl Laws {
                 NUMBER,
             ));
         }
-        self.remember(law, x, value);
+        self.with_last(x, |last| last.values[law] = Some(value));
         Ok(value)
     }
 
-    /// The last state if it equals x, and the value of the law there.
-    fn remembered(
-        &self,
-        py: Python<'_>,
-        law: usize,
-        x: &[f64],
-    ) -> Option<(Py<PyAny>, Option<f64>)> {
-        let last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
-        let last = last.as_ref().filter(|last| last.x == x)?;
-        Some((last.state.clone_ref(py), last.values[law]))
-    }
-
-    fn remember(&self, law: usize, x: &[f64], value: f64) {
-        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(last) = last.as_mut().filter(|last| last.x == x) {
-            last.values[law] = Some(value);
+    fn call_slopes(&self, py: Python<'_>, law: usize, x: &[f64]) -> PyResult<Vec<f64>> {
+        let Some(slopes) = &self.laws[law].2 else { return Ok(Vec::new()) };
+        if let Some(found) = self.with_last(x, |last| last.slopes[law].clone()).flatten() {
+            return Ok(found);
         }
+        let state = self.state(py, x)?;
+        let called = Called::enter(self)
+            .ok_or_else(|| self.fault(py, law, x, "needs its own value", RECURSION))?;
+        let found: Vec<f64> = slopes.bind(py).call1((x[0], state))?.extract()?;
+        drop(called);
+        self.with_last(x, |last| last.slopes[law] = Some(found.clone()));
+        Ok(found)
     }
 
-    fn new_state(&self, py: Python<'_>, x: &[f64]) -> PyResult<Py<PyAny>> {
+    /// Calls `f` with what is known at the last state, if it equals x.
+    fn with_last<R>(&self, x: &[f64], f: impl FnOnce(&mut Last) -> R) -> Option<R> {
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        last.as_mut().filter(|last| last.x == x).map(f)
+    }
+
+    /// The state of x.
+    fn state(&self, py: Python<'_>, x: &[f64]) -> PyResult<Py<PyAny>> {
+        if let Some(state) = self.with_last(x, |last| last.state.clone_ref(py)) {
+            return Ok(state);
+        }
         let state = self.state.call1(py, (PyArray1::from_slice(py, x),))?;
-        let values = vec![None; self.laws.len()];
-        let new = Last { x: x.to_vec(), state: state.clone_ref(py), values };
+        let (values, slopes) = (vec![None; self.laws.len()], vec![None; self.laws.len()]);
+        let new = Last { x: x.to_vec(), state: state.clone_ref(py), values, slopes };
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
         let old = last.replace(new);
         drop(last);
@@ -138,7 +157,7 @@ impl Laws {
     }
 
     fn fault(&self, py: Python<'_>, law: usize, x: &[f64], what: &str, must: &str) -> PyErr {
-        let (path, function) = &self.laws[law];
+        let (path, function, _) = &self.laws[law];
         let name = function.bind(py).getattr("__name__").and_then(|name| name.extract::<String>());
         let name = name.map(|name| format!(" '{name}'")).unwrap_or_default();
         let t = x[0];

@@ -129,6 +129,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(matrices::matrices, module)?)?;
     module.add_function(wrap_pyfunction!(measures::measure, module)?)?;
     module.add_function(wrap_pyfunction!(measures::measure_values, module)?)?;
+    module.add_function(wrap_pyfunction!(measures::measure_slopes, module)?)?;
     module.add_function(wrap_pyfunction!(formulas::formulas, module)?)?;
     module.add_function(wrap_pyfunction!(_inject_panic, module)?)?;
     module.add_function(wrap_pyfunction!(_raise, module)?)?;

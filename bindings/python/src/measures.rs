@@ -1,11 +1,13 @@
 //! Measures: expressions of quantities.
 
-use crate::convert::{refuse, rows, Row, Rows};
+use crate::convert::{refuse, rows, table, Row, Rows};
 use crate::errors::{raise_plain, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
+use crate::respond::Table;
 use kempe::analyses::dynamics::States;
 use kempe::analyses::measures::Measure;
+use kempe::analyses::slopes::by_state;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 
@@ -47,6 +49,31 @@ pub fn measure_values<'py>(
             found.value(&model.model, *t, &given[k * width..(k + 1) * width])
         };
         finite(py, text, &t, t.iter().enumerate().map(row).collect())
+    })
+}
+
+/// The derivatives of quantities at x = (t, q, v, z) by these and by the parameters, (n, n_x + n_parameters). Quantities
+/// that need accelerations or multipliers are refused.
+#[pyfunction]
+#[pyo3(signature = (model, names, x))]
+pub fn measure_slopes<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    names: Vec<String>,
+    x: Row<'py>,
+) -> PyResult<Table<'py>> {
+    guard("measure_slopes", || {
+        let read = |name: &String| {
+            let found = read(py, model, name)?;
+            match found.is_of_run() || found.needs_solution(&model.model) {
+                false => Ok(found),
+                true => Err(refuse(py, name, "does not follow from t, q, v and z".to_string())),
+            }
+        };
+        let measures = names.iter().map(read).collect::<PyResult<Vec<Measure>>>()?;
+        let found = by_state(&model.model, &measures, &x.as_array().to_vec());
+        let width = found.len() / names.len().max(1);
+        table(py, found, (names.len(), width))
     })
 }
 

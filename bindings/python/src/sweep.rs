@@ -27,13 +27,20 @@ const STACK: usize = 8 << 20;
 /// Rows of numbers, the reasons of the rows that failed, and the rows that need a single run.
 type Swept<'py> = (Table<'py>, Vec<(usize, String)>, Bound<'py, PyArray1<u64>>);
 
-/// Whether `sweep` supports a model and statistics; `reads` states whether the sweep reads quantities.
+/// Whether `sweep` supports a model and statistics; `reads` states whether the sweep reads quantities. With `slopes`,
+/// whether `gradient` does, for which functions of the caller may have derivatives.
 #[pyfunction]
-#[pyo3(signature = (model, statistics, reads))]
-pub fn sweeps(model: &PyModel, statistics: Vec<String>, reads: bool) -> PyResult<bool> {
+#[pyo3(signature = (model, statistics, reads, slopes))]
+pub fn sweeps(
+    model: &PyModel,
+    statistics: Vec<String>,
+    reads: bool,
+    slopes: bool,
+) -> PyResult<bool> {
     guard("sweeps", || {
         let known = statistics.iter().all(|name| Statistic::named(name).is_some());
-        Ok(known && Sweep::serves(&model.model, reads))
+        let plain = slopes || model.model.blueprint.functions.is_none();
+        Ok(known && plain && Sweep::serves(&model.model, reads))
     })
 }
 

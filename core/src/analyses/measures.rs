@@ -9,7 +9,7 @@ use super::quantities::{QuantityNames, QuantityValues};
 use super::signal_names::signal;
 use super::signal_rows::{each, each_over_lanes, Rows};
 use super::signal_units::unit_of;
-use super::signals::{Seen, Signal};
+use super::signals::{Energy, Seen, Signal};
 use crate::expression::{unit::Unit, Expression, ExpressionError, Inferred, Symbol, Tape};
 use crate::math::{Lanes, Listed, Real};
 use crate::model::{Model, Problem, Value};
@@ -72,6 +72,36 @@ impl Measure {
         self.signals.iter().any(of_run)
     }
 
+    /// Whether the measure uses quantities of a run that are known at its outputs only.
+    pub(super) fn is_at_outputs(&self) -> bool {
+        self.is_of_balance() || self.dissipating().next().is_some()
+    }
+
+    /// Whether the measure uses errors of a run.
+    pub(super) fn is_of_balance(&self) -> bool {
+        let errs =
+            |signal: &Signal| matches!(signal, Signal::Energy(Energy::Balance) | Signal::Balance);
+        self.signals.iter().any(errs)
+    }
+
+    /// The force elements whose dissipated energies the measure uses.
+    pub(super) fn dissipating(&self) -> impl Iterator<Item = usize> + '_ {
+        self.signals.iter().filter_map(|signal| match signal {
+            Signal::ForceDissipated(k) => Some(*k),
+            _ => None,
+        })
+    }
+
+    /// The power that a force element dissipates.
+    pub(super) fn of_dissipation(model: &Model, k: usize) -> Self {
+        Self {
+            tape: Tape::of(Symbol::Variable(0)),
+            quantities: vec![format!("{}.dissipated", model.forces[k].name)],
+            signals: vec![Signal::ForceDissipating(k)],
+            unit: "W".to_string(),
+        }
+    }
+
     /// Whether one of its quantities needs accelerations or multipliers.
     pub fn needs_solution(&self, model: &Model) -> bool {
         self.signals.iter().any(|signal| signal.needs_solution(model))
@@ -79,8 +109,11 @@ impl Measure {
 
     /// The same measure with the quantities of the model of a phase, in which a released driver has zero effort.
     pub fn in_phase(&self, model: &Model) -> Self {
-        let of = |name: &String| signal(model, name).unwrap_or(Signal::Constant(0.0));
-        Self { signals: self.quantities.iter().map(of).list(), ..self.clone() }
+        let of = |(name, own): (&String, &Signal)| match own {
+            Signal::ForceDissipating(_) => own.clone(),
+            _ => signal(model, name).unwrap_or(Signal::Constant(0.0)),
+        };
+        Self { signals: self.quantities.iter().zip(&self.signals).map(of).list(), ..self.clone() }
     }
 
     /// The values at states, with rows of accelerations and multipliers where the measure

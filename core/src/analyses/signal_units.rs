@@ -23,7 +23,7 @@ pub(super) fn unit_of(model: &Model, name: &str, signal: &Signal) -> String {
         }
         Signal::Effort(k) => model.constraints[*k].equations[0].kind.unit_of_effort().to_string(),
         Signal::Line { .. } => "N".to_string(),
-        Signal::Power(..) | Signal::ForcePower(_) => "W".to_string(),
+        Signal::Power(..) | Signal::ForcePower(_) | Signal::ForceDissipating(_) => "W".to_string(),
         Signal::ForceEnergy(_) | Signal::ForceDissipated(_) => "J".to_string(),
         Signal::Energy(Energy::Balance) | Signal::Balance => "1".to_string(),
         Signal::Energy(_) => "J".to_string(),

@@ -12,7 +12,7 @@ use crate::equations::{actions, constraints, energy};
 use crate::expression::Tape;
 use crate::integrate::Bounds;
 use crate::math::{each, Local, Real, Vec2, Wrench};
-use crate::model::Model;
+use crate::model::{Model, WORKS};
 
 /// A state at which signals are evaluated.
 pub(super) struct Seen<'a, S = f64> {
@@ -20,7 +20,8 @@ pub(super) struct Seen<'a, S = f64> {
     pub t: S,
     /// Coordinates, rates and first-order states.
     pub state: [&'a [S]; 3],
-    /// Works up to the state, J.
+    /// Works up to the state, J; those of the whole mechanism, and the energies that forces have dissipated, if they
+    /// are summed.
     pub works: &'a [S],
     /// The positions and rates of the state as poses and twists.
     pub motions: &'a Motions<S>,
@@ -103,6 +104,8 @@ pub(super) enum Signal {
     ForceEnergy(usize),
     /// Energy that a force element has dissipated since the start of the run.
     ForceDissipated(usize),
+    /// Power that a force element dissipates. Formulas cannot use it.
+    ForceDissipating(usize),
     /// An energy of the whole mechanism.
     Energy(Energy),
     /// Largest violation of the constraints, or of their rates.
@@ -125,7 +128,7 @@ impl Signal {
                 model.forces[*k].reaction.is_some() || model.forces[*k].held_row.is_some()
             }
             Self::ForcePower(k) | Self::ForceEnergy(k) => model.forces[*k].reaction.is_some(),
-            Self::ForceResult { k, .. } | Self::ForceDissipated(k) => {
+            Self::ForceResult { k, .. } | Self::ForceDissipated(k) | Self::ForceDissipating(k) => {
                 let item = &model.forces[*k];
                 item.reaction.is_some() || item.held_row.is_some()
             }
@@ -195,7 +198,11 @@ impl Signal {
             Self::ForceEnergy(k) => forces::potential(model, *k, seen.motions, seen.acting()),
             Self::Energy(of) => energy_of(model, *of, seen),
             Self::Drift { order } => drift(model, *order, seen),
-            Self::ForceDissipated(k) => of_run(seen, |so_far| so_far.of(*k)),
+            Self::ForceDissipated(k) => match seen.works.get(WORKS + k) {
+                Some(energy) => *energy,
+                None => of_run(seen, |so_far| so_far.of(*k)),
+            },
+            Self::ForceDissipating(k) => forces::dissipated(model, *k, seen.motions, seen.acting()),
             Self::Balance => of_run(seen, SoFar::reaction_balance),
         }
     }

@@ -24,7 +24,7 @@ pub(super) const PLACES: [f64; 5] = [
     0.953_089_922_969_332,
 ];
 /// Weights of the nodes.
-const WEIGHTS: [f64; 5] = [
+pub(super) const WEIGHTS: [f64; 5] = [
     0.118_463_442_528_094_54,
     0.239_314_335_249_683_24,
     0.284_444_444_444_444_44,

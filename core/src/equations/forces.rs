@@ -146,7 +146,9 @@ fn of_host<S: Real>(model: &Model<S>, k: usize, motions: &Motions<S>, z: &[S], t
     let Some(functions) = &model.blueprint.functions else { return S::constant(f64::NAN) };
     let mut x = Vec::with_capacity(1 + 2 * model.layout.n_q + z.len());
     motions.collect(&model.layout, t, z, &mut x);
-    functions.value(k, &x)
+    let count = x.len();
+    x.extend(&model.parameters);
+    functions.value(k, &x, count)
 }
 
 /// The situation of force `k`.

@@ -3,7 +3,7 @@
 #![allow(clippy::suspicious_arithmetic_impl)] // product and quotient rule
 
 use super::base::OverBase;
-use super::real::{difference, Lift, Real};
+use super::real::{difference, ByValues, Lift, Real};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A value with its derivatives with respect to `N` seeds.
@@ -258,7 +258,7 @@ where
     fn in_lanes(self) -> [f64; 4] {
         self.value.in_lanes()
     }
-    fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {
+    fn of_values(f: &dyn ByValues, x: &[Self]) -> Self {
         let (mut at, mut direction) = (vec![S::zero(); x.len()], vec![S::zero(); x.len()]);
         for (at, x) in at.iter_mut().zip(x) {
             *at = x.value;

@@ -6,7 +6,7 @@
 
 use super::base::OverBase;
 use super::dual::Dual;
-use super::real::{Lift, Real};
+use super::real::{ByValues, Lift, Real};
 use crate::math::Listed;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -250,7 +250,7 @@ impl<S: Real> Real for Jet<S> {
     fn in_lanes(self) -> [f64; 4] {
         self.value.in_lanes()
     }
-    fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {
+    fn of_values(f: &dyn ByValues, x: &[Self]) -> Self {
         // along the path x + ẋ τ + ẍ τ²/2
         let at = |tau: f64| -> S {
             let (first, second) = (S::constant(tau), S::constant(0.5 * tau * tau));

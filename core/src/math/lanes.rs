@@ -1,7 +1,7 @@
 //! Several states or designs at once: one formula evaluated for several numbers in parallel.
 
 use super::array::each;
-use super::real::{Lift, Real};
+use super::real::{ByValues, Lift, Real};
 use super::sine;
 use crate::math::Listed;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -284,8 +284,8 @@ impl Real for Lanes {
     fn in_lanes(self) -> [f64; 4] {
         self.to_array()
     }
-    fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {
-        Self::new(std::array::from_fn(|lane| f(&x.iter().map(|x| x.to_array()[lane]).list())))
+    fn of_values(f: &dyn ByValues, x: &[Self]) -> Self {
+        Self::new(std::array::from_fn(|lane| f.value(&x.iter().map(|x| x.to_array()[lane]).list())))
     }
     #[inline(always)]
     fn largest_magnitude(self) -> f64 {

@@ -35,6 +35,6 @@ pub use lanes::Lanes;
 pub(crate) use list::Listed;
 pub(crate) use order::Ordered;
 pub use plane::{Lever, Local, Motion, Pose, Rotation, Twist, Vec2, Wrench};
-pub use real::{Largest, Lift, Real};
+pub use real::{ByArgument, ByValues, Largest, Lift, Real};
 pub use series::TaylorSeries;
 pub use spline::{Interpolation, Spline};

@@ -91,9 +91,9 @@ pub trait Real:
     fn is_constant(self) -> bool {
         true
     }
-    /// A function of which only values are available. Derivatives are finite differences. NaN for a scalar without
+    /// A function of the host. Derivatives that it does not give are finite differences. NaN for a scalar without
     /// values.
-    fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {
+    fn of_values(f: &dyn ByValues, x: &[Self]) -> Self {
         let _ = (f, x);
         Self::constant(f64::NAN)
     }
@@ -262,19 +262,38 @@ impl Real for f64 {
     fn is_finite(self) -> bool {
         f64::is_finite(self)
     }
-    fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {
-        f(x)
+    fn of_values(f: &dyn ByValues, x: &[Self]) -> Self {
+        f.value(x)
     }
 }
 
-/// The derivative along `direction` of a function of which only values are available, as a finite difference. `value`
-/// is f(x).
-pub(super) fn difference<S: Real>(
-    f: &dyn Fn(&[f64]) -> f64,
-    x: &[S],
-    value: S,
-    direction: &[S],
-) -> S {
+/// The derivative of a function at x by the argument with an index.
+pub type ByArgument<'a> = &'a dyn Fn(&[f64], usize) -> f64;
+
+/// A function of numbers that is given by its values, and perhaps by its derivatives.
+pub trait ByValues {
+    /// The value at x.
+    fn value(&self, x: &[f64]) -> f64;
+    /// The derivatives with respect to the arguments, as functions; None if they are not known.
+    fn slopes(&self) -> Option<ByArgument<'_>> {
+        None
+    }
+}
+
+impl<F: Fn(&[f64]) -> f64> ByValues for F {
+    fn value(&self, x: &[f64]) -> f64 {
+        self(x)
+    }
+}
+
+/// The derivative along `direction` of a function that is given by its values, as a finite difference if its derivatives
+/// are not known. `value` is f(x).
+pub(super) fn difference<S: Real>(f: &dyn ByValues, x: &[S], value: S, direction: &[S]) -> S {
+    if let Some(slopes) = f.slopes() {
+        let moves = |(_, d): &(usize, &S)| d.largest_magnitude() != 0.0;
+        let part = |sum, (k, d): (usize, &S)| sum + S::of_values(&|x: &[f64]| slopes(x, k), x) * *d;
+        return direction.iter().enumerate().filter(moves).fold(S::zero(), part);
+    }
     let moved = || x.iter().zip(direction).filter(|(_, d)| d.largest_magnitude() != 0.0);
     let Some(rate) = moved().map(|(_, d)| d.largest_magnitude()).reduce(f64::max) else {
         return S::zero();

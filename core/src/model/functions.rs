@@ -1,6 +1,7 @@
 //! Laws that the calling program computes: functions of time and state without a formula.
 
-use crate::math::Real;
+use crate::math::{ByArgument, ByValues, Real};
+use std::cell::RefCell;
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -8,6 +9,9 @@ use std::sync::Arc;
 pub trait Host: Debug + Send + Sync {
     /// The value of a law at x = (t, q, v, z). NaN if there is no value; this ends a run.
     fn value(&self, law: usize, x: &[f64]) -> f64;
+    /// The derivatives of a law with [`slopes`](FunctionLaw::slopes) at x = (t, q, v, z), by t, q, v, z and the
+    /// parameters. Empty if there are none; this ends a run.
+    fn slopes(&self, law: usize, x: &[f64]) -> Vec<f64>;
 }
 
 /// The times at which a sampled law is computed: start + k period for k = 0, 1, 2, …
@@ -50,6 +54,8 @@ pub struct FunctionLaw {
     pub unit: String,
     /// None if the law is computed at each evaluation.
     pub sampling: Option<Sampling>,
+    /// Whether the host has the derivatives.
+    pub slopes: bool,
 }
 
 impl FunctionLaw {
@@ -81,8 +87,45 @@ impl Functions {
         all.filter_map(|(k, law)| Some((k, law, law.sampling?)))
     }
 
-    /// The value of a law at x = (t, q, v, z).
-    pub fn value<S: Real>(&self, law: usize, x: &[S]) -> S {
-        S::of_values(&|x| self.host.value(law, x), x)
+    /// Whether the derivatives of all laws are known.
+    pub fn have_slopes(&self) -> bool {
+        self.laws.iter().all(|law| law.slopes && law.sampling.is_none())
+    }
+
+    /// The value of a law at (t, q, v, z), whose length is `count`, and the parameters.
+    pub fn value<S: Real>(&self, law: usize, x: &[S], count: usize) -> S {
+        let value = |x: &[f64]| self.host.value(law, &x[..count]);
+        if !self.laws[law].slopes {
+            return S::of_values(&value, x);
+        }
+        let last: RefCell<(Vec<f64>, Vec<f64>)> = RefCell::default();
+        let slope = |x: &[f64], k: usize| {
+            let (at, slopes) = &mut *last.borrow_mut();
+            if at[..] != x[..count] {
+                (*at, *slopes) = (x[..count].to_vec(), self.host.slopes(law, &x[..count]));
+            }
+            // parameters that an analysis adds do not concern the law
+            if slopes.is_empty() {
+                f64::NAN
+            } else {
+                slopes.get(k).copied().unwrap_or(0.0)
+            }
+        };
+        S::of_values(&LawWithSlopes { value, slope }, x)
+    }
+}
+
+/// A law with its derivatives.
+struct LawWithSlopes<V, D> {
+    value: V,
+    slope: D,
+}
+
+impl<V: Fn(&[f64]) -> f64, D: Fn(&[f64], usize) -> f64> ByValues for LawWithSlopes<V, D> {
+    fn value(&self, x: &[f64]) -> f64 {
+        (self.value)(x)
+    }
+    fn slopes(&self) -> Option<ByArgument<'_>> {
+        Some(&self.slope)
     }
 }

@@ -27,6 +27,9 @@ impl<F: Fn(&[f64]) -> f64 + Send + Sync> Host for Calls<F> {
         self.at.lock().unwrap().push(x[0]);
         (self.f)(x)
     }
+    fn slopes(&self, _: usize, _: &[f64]) -> Vec<f64> {
+        Vec::new()
+    }
 }
 
 /// A mass on a slide in the direction of x, drawn by the force `drive.force`.
@@ -60,7 +63,7 @@ fn with<F: Fn(&[f64]) -> f64 + Send + Sync + 'static>(
         }
     }
     let (element, field, unit) = ("drive".to_string(), "force_1".to_string(), String::new());
-    let laws = vec![FunctionLaw { element, field, unit, sampling }];
+    let laws = vec![FunctionLaw { element, field, unit, sampling, slopes: false }];
     let host = Arc::new(Calls { f, at: Mutex::default() });
     case.definition.functions = Some(Functions { laws, host: host.clone() });
     (build(&case.definition, &[]).unwrap(), host)
@@ -239,10 +242,8 @@ fn the_next_sample_of_a_time() {
 #[test]
 fn time_derivatives_of_a_function_are_differences() {
     // along x = 0.3 + 2 τ + τ², y = 1 - τ
-    let of = |f: &dyn Fn(&[f64]) -> f64| {
-        Jet::of_values(f, &[Jet::new(0.3, 2.0, 2.0), Jet::new(1.0, -1.0, 0.0)])
-    };
-    let found = of(&|x| x[0] * x[0] * x[1]);
+    let at = [Jet::new(0.3, 2.0, 2.0), Jet::new(1.0, -1.0, 0.0)];
+    let found: Jet = Jet::of_values(&|x: &[f64]| x[0] * x[0] * x[1], &at);
     let (x, y) = (Jet::new(0.3, 2.0, 2.0), Jet::new(1.0, -1.0, 0.0));
     let exact: Jet = x * x * y;
     close("value", found.value, exact.value, 0.0);
@@ -254,7 +255,7 @@ fn time_derivatives_of_a_function_are_differences() {
 fn lanes_of_a_function_are_its_values() {
     let lanes = |a: [f64; 4]| Lanes::new(a);
     let (x, y) = (lanes([1.0, 2.0, 3.0, 4.0]), lanes([0.1, 0.2, 0.3, 0.4]));
-    let found = Lanes::of_values(&|x| x[0].sin() + x[1], &[x, y]).to_array();
+    let found = Lanes::of_values(&|x: &[f64]| x[0].sin() + x[1], &[x, y]).to_array();
     let expected = [1.0_f64, 2.0, 3.0, 4.0].map(|x| x.sin() + 0.1 * x);
     found.iter().zip(expected).for_each(|(is, x)| close("lane", *is, x, 1e-15));
 }

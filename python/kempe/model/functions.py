@@ -7,9 +7,13 @@ import weakref
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from math import isfinite
 from types import FunctionType, MethodType, ModuleType
 from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
+import numpy as np
+
+from kempe import _core
 from kempe._upwards import CALLS
 from kempe.base.arrays import Floats
 from kempe.errors import ModelError, Problem
@@ -20,11 +24,44 @@ if TYPE_CHECKING:
     from kempe.results.state import State
 
 #: A law ``f(t, state)``.
-Function: TypeAlias = "Callable[[float, State], float]"
+PythonLaw: TypeAlias = "Callable[[float, State], float]"
+#: Its derivatives ``g(t, state)``.
+PythonSlopes: TypeAlias = "Callable[[float, State], Mapping[str, float]]"
 
 
 class FunctionWarning(UserWarning):
     """A controller remembers an earlier run, so that two identical runs have different results."""
+
+
+@dataclass(frozen=True)
+class Function:
+    """A law ``f(t, state)`` with its derivatives, so that ``kp.gradient`` can differentiate it.
+
+    Implicit methods use the derivatives too, in place of differences.
+
+    Args:
+        f: the function.
+        slopes: ``slopes(t, state)``, the derivatives of f at a state: {quantity: ∂f/∂quantity}. The
+            quantities are those that f reads, such as ``"rod.omega"``, and ``"t"``. A quantity that
+            is missing has the derivative 0.
+
+    Raises:
+        ModelError: an argument is not a function.
+    """
+
+    f: PythonLaw
+    slopes: PythonSlopes | None = None
+
+    def __post_init__(self) -> None:
+        """Check the fields."""
+        for field in ("f", "slopes"):
+            value = getattr(self, field)
+            if not callable(value) and (field == "f" or value is not None):
+                refuse(f"Function.{field}", f"{value!r} is not a function of t and state")
+
+    def __call__(self, t: float, state: State) -> float:
+        """The value of the law."""
+        return self.f(t, state)
 
 
 @dataclass(frozen=True)
@@ -47,7 +84,7 @@ class Sampled:
         ModelError: ``f`` is not a function, or a number is invalid.
     """
 
-    f: Function
+    f: PythonLaw
     period: float
     start: float = 0.0
 
@@ -70,15 +107,41 @@ class FunctionLaw:
     Attributes:
         path: such as ``forces.controller.torque``.
         f: the function.
+        slopes: its derivatives, if they are known.
         sampling: period and start; None if it is called at each evaluation.
     """
 
-    def __init__(self, path: str, given: Function | Sampled) -> None:
+    def __init__(self, path: str, given: PythonLaw | Sampled) -> None:
         self.path = path
         sampled = isinstance(given, Sampled)
-        self.f = given.f if sampled else given  # type: ignore[union-attr]
         self.sampling = (given.period, given.start) if sampled else None  # type: ignore[union-attr]
+        of: Any = given.f if sampled else given  # type: ignore[union-attr]
+        self.f: PythonLaw = of.f if isinstance(of, Function) else of
+        self.slopes: PythonSlopes | None = of.slopes if isinstance(of, Function) else None
         self._left: bytes | None = None  # the memory that the last run left, if it changed
+
+    @property
+    def is_differentiable(self) -> bool:
+        """Whether its derivatives are known."""
+        return self.slopes is not None and self.sampling is None
+
+    def partials(self, t: float, state: State) -> dict[str, float]:
+        """Its derivatives at a state, by quantity.
+
+        Raises:
+            ModelError: they are not finite numbers by name.
+        """
+        found: Any = self.slopes(t, state) if self.slopes else {}
+        where = f"{self.path}: slopes of the function {self!r}"
+        if not isinstance(found, Mapping):
+            raise ModelError(f"{where} returned {found!r}; they must return {{quantity: number}}")
+        for name, x in found.items():
+            if not isinstance(name, str) or not isinstance(x, int | float) or not isfinite(x):
+                raise ModelError(
+                    f"{where} returned {x!r} for {name!r} at t = {t:.9g} s; they must return "
+                    "finite numbers by the names of quantities"
+                )
+        return {name: float(x) for name, x in found.items()}
 
     def begin(self) -> tuple[bytes, bool]:
         """Begin a run: the controller forgets earlier ones.
@@ -109,9 +172,9 @@ class FunctionLaw:
 
 
 #: A number, a formula, or a Python function ``f(t, state)``.
-Law: TypeAlias = "float | str | Function | Sampled"
+Law: TypeAlias = "float | str | PythonLaw | Function | Sampled"
 #: Two of them.
-LawPair: TypeAlias = "Sequence[float | str | Function | Sampled]"
+LawPair: TypeAlias = "Sequence[float | str | PythonLaw | Function | Sampled]"
 
 
 #: The sections whose laws may be Python functions.
@@ -190,9 +253,15 @@ def refuse_saving(laws: list[FunctionLaw]) -> NoReturn:
     _refuse_functions(laws, "cannot be saved or pickled", ", or save the arrays of the solution")
 
 
-def refuse_derivatives(laws: list[FunctionLaw]) -> NoReturn:
-    """Raise the ``ModelError`` for derivatives of a model with Python functions."""
-    _refuse_functions(laws, "cannot be differentiated", "")
+def refuse_derivatives(laws: list[FunctionLaw]) -> None:
+    """Raise the ``ModelError`` for derivatives of a model with functions that have none."""
+    sampled = [law for law in laws if law.sampling is not None]
+    without = [law for law in laws if not law.is_differentiable]
+    if sampled:
+        _refuse_functions(sampled, "cannot be differentiated, because it is sampled", "")
+    if without:
+        otherwise = ", or give its derivatives: kp.Function(f, slopes=g)"
+        _refuse_functions(without, "cannot be differentiated", otherwise)
 
 
 def _refuse_functions(laws: list[FunctionLaw], cannot: str, otherwise: str) -> NoReturn:
@@ -232,8 +301,28 @@ class Functions:
         return [law for _, _, _, law in self.laws]
 
     def described(self) -> list[tuple[Any, ...]]:
-        """For the core: element, field, number of the entry, function, period and start."""
-        return [(*place, law.f, law.sampling) for *place, law in self.laws]
+        """For the core: element, field, number of the entry, function, derivatives, sampling."""
+        return [(*place, law.f, self._row(law), law.sampling) for *place, law in self.laws]
+
+    def _row(self, law: FunctionLaw) -> Callable[[float, State], list[float]] | None:
+        """The derivatives of a law by t, q, v, z and the parameters, at a state."""
+        if not law.is_differentiable:
+            return None
+
+        def row(t: float, state: State) -> list[float]:
+            partials = law.partials(t, state)
+            compiled = self._own()
+            x = np.concatenate([[t], state.q, state.v, state.z])
+            try:
+                by = _core.measure_slopes(compiled.core, list(partials), x)
+            except ModelError as error:
+                told = f"{law.path}: slopes of the function {law!r}: {error.args[0]}"
+                error.args = (told, *error.args[1:])
+                raise
+            found: list[float] = (np.array(list(partials.values())) @ by).tolist()
+            return found if partials else [0.0] * (len(x) + len(compiled.parameters))
+
+        return row
 
     @contextmanager
     def run(self) -> Iterator[list[str]]:
@@ -255,11 +344,16 @@ class Functions:
         """Use this model for states; the reference to it is weak, to avoid a reference cycle."""
         self._compiled = weakref.ref(compiled)
 
-    def state(self, x: Floats) -> State:
-        """The state with t, q, v and z."""
+    def _own(self) -> CompiledModel:
+        """The compiled model."""
         compiled = self._compiled()
         if compiled is None:
             raise ModelError("the model of this function no longer exists")
+        return compiled
+
+    def state(self, x: Floats) -> State:
+        """The state with t, q, v and z."""
+        compiled = self._own()
         n = 1 + compiled.n_q
         v, z = x[n : n + compiled.n_q], x[n + compiled.n_q :]
         state: State = CALLS["state"](compiled, x[0], x[1:n], v, z=z)

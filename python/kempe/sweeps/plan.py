@@ -10,7 +10,7 @@ import hashlib
 import json
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -145,7 +145,7 @@ class Plan:
         kind = self.case.analyses[self.analysis]["type"]
         statistics = [one.statistic for one in self.wanted if one.statistic]
         reads = reads_quantities(kind, [one.text for one in self.wanted])
-        return _core.sweeps(self.case.model.compile().core, statistics, reads)
+        return _core.sweeps(self.case.model.compile().core, statistics, reads, False)
 
     def unit_of(self, name: str) -> str:
         """The SI unit of a variable; empty for a parameter that is written without one."""
@@ -186,7 +186,7 @@ class Plan:
     ) -> tuple[_core.Model, str, str, str, list[str], list[tuple[int | None, str]]]:
         """The arguments of the core that all rows share."""
         start = self.case.with_start({name: 0.0 for name in self.names if "." in name})
-        tree = start.tree().get("start", {})
+        tree = start._start.tree()
         measures = list(dict.fromkeys(one.expression for one in self.wanted if one.statistic))
         wanted: list[tuple[int | None, str]] = [
             (measures.index(one.expression), one.statistic) if one.statistic else (None, one.text)
@@ -217,6 +217,11 @@ class Plan:
         ordered = np.ascontiguousarray(given[:, self._order])
         return _core.sweep(*self._request, *self._columns, ordered, workers)
 
+    def _seen(self, row: Floats) -> Plan:
+        """The plan whose functions in Python see the model with the values of a row."""
+        case = self.case
+        return replace(self, case=self.variant(row)) if case.model.compile().functions else self
+
     def slopes(self, row: Floats) -> tuple[Floats, Floats, dict[tuple[int, int], str]]:
         """The wanted numbers with these values of the variables, and their derivatives.
 
@@ -228,7 +233,8 @@ class Plan:
             KempeError: the run fails.
         """
         ordered = np.ascontiguousarray(row[self._order])
-        values, ordered_slopes, remarks = _core.gradient(*self._request, *self._columns, ordered)
+        request = self._seen(row)._request
+        values, ordered_slopes, remarks = _core.gradient(*request, *self._columns, ordered)
         slopes = np.empty_like(ordered_slopes)
         slopes[:, self._order] = ordered_slopes
         return values, slopes, {(k, self._order[of]): text for k, of, text in remarks}
@@ -250,7 +256,7 @@ class Plan:
             NoSlopesError: there are no derivatives.
             KempeError: the run fails.
         """
-        core, start, guess, analyses, *_ = self._request
+        core, start, guess, analyses, *_ = self._seen(row)._request
         request = (core, start, guess, analyses, list(measures), times)
         values, slopes, reason = _core.slopes_at(*request, *self._columns, row[self._order])
         if reason:

@@ -29,7 +29,8 @@ impl Sample {
         let x = [&[t], q, v, z].concat();
         let mut values: Vec<f64> = model.layout.held.iter().map(|place| z[*place]).list();
         let due = functions.sampled().zip(&mut values).filter(|((.., times), _)| times.is_at(t));
-        let due: Vec<_> = due.map(|((law, ..), value)| *value = functions.value(law, &x)).list();
+        let due: Vec<_> =
+            due.map(|((law, ..), value)| *value = functions.value(law, &x, x.len())).list();
         (!due.is_empty()).then_some(Self { t, values })
     }
 

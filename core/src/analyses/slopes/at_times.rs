@@ -1,5 +1,6 @@
 //! Measures of a motion and their derivatives at given times.
 
+use super::gradient::{OF_BALANCE, OF_RUN};
 use super::starts::with_interpolant;
 use super::statistics::SlopeRows;
 use crate::analyses::measures::Measure;
@@ -41,13 +42,16 @@ impl Sweep {
         let read = |text: &String| Measure::read(whole.model(), text);
         let measures: Result<Vec<Measure>, _> = self.measures.iter().map(read).collect();
         let measures = measures.map_err(|problem| Outcome::Failed(problem.to_string()))?;
-        if measures.iter().any(Measure::is_of_run) {
-            return Ok(Err("of a whole run, only final values have derivatives".to_string()));
+        if measures.iter().any(Measure::is_of_balance) {
+            return Ok(Err(OF_BALANCE.to_string()));
         }
         let count = measures.len();
         let wanted = (measures, times.to_vec());
         let rows = self.rows((whole, &run, rests), &ready, wanted, row, stop);
-        Ok(rows.and_then(|rows| gathered(&rows, times, count)))
+        Ok(rows.and_then(|rows| match gathered(&rows, times, count)? {
+            (values, _) if values.iter().any(|x| x.is_nan()) => Err(OF_RUN.to_string()),
+            found => Ok(found),
+        }))
     }
 }
 

@@ -133,18 +133,26 @@ impl SlopeRows {
     ) -> Result<Stationary, String> {
         let (t, value) = (found.t, found.value);
         let first = Stationary::at(self, k, (t, value), times)?;
-        let size = first.of_value.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         for rival in rivals {
             let other = Stationary::at(self, k, (*rival, value), times)?;
-            let both = first.of_value.iter().zip(&other.of_value);
-            if both.into_iter().any(|(a, b)| (a - b).abs() > ALIKE * size) {
-                return Err(format!(
-                    "the value is reached at t = {t:.6} s and at t = {rival:.6} s, and changes differently there"
-                ));
-            }
+            alike((t, &first.of_value), (*rival, &other.of_value))?;
         }
         Ok(first)
     }
+}
+
+/// Checks that the derivatives of equal values at two times are equal.
+///
+/// # Errors
+/// They are not, so that the larger of both values has no derivative.
+pub(super) fn alike((t, a): (f64, &[f64]), (rival, b): (f64, &[f64])) -> Result<(), String> {
+    let size = a.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    if a.iter().zip(b).any(|(a, b)| (a - b).abs() > ALIKE * size) {
+        return Err(format!(
+            "the value is reached at t = {t:.6} s and at t = {rival:.6} s, and changes differently there"
+        ));
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::motion::{joined, AskedRun, MotionSlopes};
 use super::numbers::listed;
 use super::reader::{Reader, StateSlopes, States};
-use super::run_ends::{ending, refusal, state_at};
+use super::run_ends::{ending, refusal, state_at, steps};
 use super::starts::{with_interpolant, Starts};
 use super::statistics::{Found, RunTimes, SlopePlan, SlopeRows};
 use super::variables::{parameters, replacements};
@@ -33,7 +33,7 @@ pub struct Remark {
 /// Numbers with derivatives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradient {
-    /// The numbers, in the order of the request.
+    /// The numbers, in the order of the request; NaN for those of quantities of a whole run.
     pub values: Vec<f64>,
     /// Their derivatives: a row for each number, a column for each variable. NaN where there is none.
     pub jacobian: Vec<f64>,
@@ -48,9 +48,11 @@ const ROUNDED: f64 = 1e-10;
 /// Part of the largest value by which a value changes at least, relative to the change of a variable, if it changes.
 const STEEP: f64 = 1e-6;
 
-/// Works since the start are known along the steps of the derivatives only, which have no extreme values.
-const OF_RUN: &str =
-    "of a quantity of a whole run, only final values and integrals have derivatives";
+/// Why a quantity of a whole run has no derivative.
+pub(super) const OF_RUN: &str = "the works of drivers and forces are known along simulations only";
+/// Why a balance has no derivative.
+pub(super) const OF_BALANCE: &str =
+    "a balance is an error of the integration, which has no derivative";
 
 /// The outcome of a gradient.
 type Outcomes = Result<Gradient, Outcome>;
@@ -129,19 +131,28 @@ impl Sweep {
         let whole = whole.as_ref().unwrap_or(&ready.prepared);
         let readings = Readings::new(whole, &run, rests, None)?.solved_by(responses);
         let between = self.between(readings)?;
-        let series = (0..self.measures.len()).map(|k| Series::new(&between, k));
-        let series: Vec<Series<'_>> = series.collect::<Result<_, _>>()?;
-        let values: Result<Vec<f64>, _> =
-            self.statistics().map(|(of, statistic)| series[of].statistic(statistic)).collect();
-        let (mut values, count) = (values?, row.0.len() + row.1.len());
-        let steps = run.dense.as_ref().map_or(&run.trajectory.t[..], |dense| &dense.t);
+        let measures: Vec<Measure> =
+            (0..self.measures.len()).map(|k| between.readings.measure(k).clone()).list();
+        let series = measures.iter().enumerate().map(|(k, measure)| {
+            (!measure.is_at_outputs()).then(|| Series::new(&between, k)).transpose()
+        });
+        let series: Vec<Option<Series<'_>>> = series.collect::<Result<_, _>>()?;
+        let of_run = measures.iter().map(Measure::is_of_run).list();
+        let of = |(k, statistic): (usize, Statistic)| match &series[k] {
+            Some(series) if !of_run[k] => series.statistic(statistic),
+            _ => Ok(f64::NAN),
+        };
+        let values: Result<Vec<f64>, _> = self.statistics().map(of).collect();
+        let (values, count) = (values?, row.0.len() + row.1.len());
+        let steps = steps(&run);
         let changes = changes(&run, steps);
         let times = RunTimes { outputs: &run.trajectory.t, steps, changes: &changes };
-        let plans: Vec<SlopePlan> = self
-            .statistics()
-            .map(|(of, statistic)| SlopePlan::of(&series[of], statistic, times))
-            .list();
-        let measures = (0..self.measures.len()).map(|k| between.readings.measure(k).clone()).list();
+        let plan = |(k, statistic): (usize, Statistic)| match &series[k] {
+            _ if measures[k].is_of_balance() => SlopePlan::None(OF_BALANCE.to_string()),
+            Some(series) if !of_run[k] => SlopePlan::of(series, statistic, times),
+            series => SlopePlan::of_run(series.as_ref(), statistic, times),
+        };
+        let plans: Vec<SlopePlan> = self.statistics().map(plan).list();
         let needed = plans.iter().flat_map(|plan| plan.times(times)).list();
         let rows = self.rows((whole, &run, rests), ready, (measures, needed), row, stop);
         let found = plans.iter().zip(self.statistics()).map(|(plan, (k, one))| match &rows {
@@ -150,15 +161,15 @@ impl Sweep {
         });
         let mut found = found.list();
         for (number, (k, _)) in self.statistics().enumerate() {
-            let (value, slopes) = (values[number], found[number].clone());
-            if between.readings.measure(k).is_of_run() {
-                values[number] =
-                    rows.as_ref().map_or(f64::NAN, |rows| plans[number].value(rows, k));
-                if values[number].is_nan() && slopes.is_ok() {
-                    found[number] = Err(OF_RUN.to_string());
+            let reason = match (&found[number], &series[k]) {
+                (Ok(slopes), Some(series)) if !of_run[k] => {
+                    is_cusp(series.outputs(), values[number], slopes, row).then_some(ZERO)
                 }
-            } else if slopes.is_ok_and(|slopes| is_cusp(series[k].outputs(), value, &slopes, row)) {
-                found[number] = Err(ZERO.to_string());
+                (Ok(slopes), _) => slopes.iter().any(|x| x.is_nan()).then_some(OF_RUN),
+                _ => None,
+            };
+            if let Some(reason) = reason {
+                found[number] = Err(reason.to_string());
             }
         }
         Ok(gathered(values, found, count))
@@ -190,7 +201,11 @@ impl Sweep {
         measures.extend(ends.iter().cloned());
         t.extend(run.trajectory.t.last());
         let count = row.0.len() + row.1.len();
-        let rows = SlopeRows::read(&mut Reader::new(whole.model(), measures, course), t, count)?;
+        let rows = SlopeRows::read(
+            &mut Reader::new(whole.model(), measures, course, steps(run)),
+            t,
+            count,
+        )?;
         match ends {
             None => Ok(rows),
             Some(_) => rows.ending_at_zero_of(condition),

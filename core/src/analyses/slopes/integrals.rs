@@ -23,11 +23,6 @@ impl SlopeRows {
         Ok(Integrals { values: values.collect::<Result<_, String>>()?, ..at.clone() })
     }
 
-    /// A statistic that follows from integrals of measure `k`.
-    pub(super) fn integral(&self, of: Statistic, k: usize, at: &Integrals) -> Result<f64, String> {
-        Ok(of.of_integrals(&self.integrals(k, at)?))
-    }
-
     /// The derivatives of a statistic that follows from integrals of measure `k`: those within the run, and those of
     /// the times at which the motion changes or the run ends.
     pub(super) fn slopes_of_integral(&self, of: Statistic, k: usize, at: &Integrals) -> Found {

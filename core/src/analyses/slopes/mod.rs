@@ -17,17 +17,23 @@
 //! | `limits`, `turning` | limits of motions |
 //! | `modes` | the numbers of modes |
 //! | `spectrum` | the derivatives of eigenvalues |
+//! | `by_state` | the derivatives of quantities with respect to the state |
 //! | `driven` | the derivatives of a motion that drivers determine |
+//! | `dissipation` | the energies that force elements dissipate, with derivatives |
 //! | `reader` | measures with derivatives |
 //! | `statistics` | statistics with derivatives |
 //! | `extremes` | extreme values with derivatives |
 //! | `integrals` | integrals, means and root mean squares with derivatives |
 //! | `numbers` | the numbers of results that are not motions |
 //! | `gradient` | all numbers and all variables of a request |
+//! | `at_outputs` | extreme values at the outputs |
 //! | `at_times` | measures and all variables of a request at given times |
 
+mod at_outputs;
 mod at_rest;
 mod at_times;
+mod by_state;
+mod dissipation;
 mod driven;
 mod equilibrium;
 mod extremes;
@@ -49,4 +55,5 @@ mod turning;
 mod variables;
 
 pub use at_times::AtTimes;
+pub use by_state::by_state;
 pub use gradient::{Gradient, Remark};

@@ -125,6 +125,9 @@ fn refusal(model: &Model, v: &[f64]) -> Option<&'static str> {
     if v.iter().any(|v| *v != 0.0) {
         return Some("the state moves; modes at rest have derivatives");
     }
+    if model.blueprint.functions.is_some() {
+        return Some("the second derivatives of Python functions are not known; write formulas");
+    }
     if model.layout.n_z > 0 {
         return Some("elements have first-order states");
     }

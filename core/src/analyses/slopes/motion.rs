@@ -7,7 +7,10 @@ use super::impacts;
 use super::ode::SlopeOde;
 use super::triggers::Trigger;
 use crate::analyses::assemble::StartSlopes;
-use crate::analyses::dynamics::{Options, Passage, PiecewiseInterpolant, Run, Scheme, Setting};
+use crate::analyses::dynamics::{
+    planned, Options, Passage, PiecewiseInterpolant, Run, Scheme, Setting,
+};
+use crate::analyses::measures::Measure;
 use crate::elements::Behaviour;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::integrate::{Atol, BoxedStepper, Dop853, ExplicitMethod, StepControl};
@@ -327,6 +330,18 @@ impl<'a> MotionSlopes<'a> {
     /// The duration of the run.
     pub fn duration(&self) -> f64 {
         self.steps.t[self.steps.t.len() - 1] - self.steps.t[0]
+    }
+
+    /// The conditions that may change the motion.
+    pub fn conditions(&self) -> Vec<Measure> {
+        let AskedRun { model, options, .. } = &self.asked;
+        let all = planned(model, options);
+        all.iter().filter_map(|event| Measure::of_condition(model, &event.condition).ok()).list()
+    }
+
+    /// The derivatives of the time of the start.
+    pub fn late_start(&self) -> &[f64] {
+        &self.asked.starts.1
     }
 
     /// The time and the state at which the motion has changed last.

@@ -1,10 +1,12 @@
 //! Measures with derivatives at the times of a run.
 
+use super::dissipation::Dissipation;
 use super::driven;
 use super::motion::MotionSlopes;
 use super::triggers::Trigger;
 use crate::analyses::measures::Measure;
 use crate::analyses::signals::Seen;
+use crate::equations::forces::{self, Acting};
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::equations::Workspace;
 use crate::math::{Dual, Listed, Real};
@@ -32,6 +34,7 @@ pub(super) struct Reader<'a> {
     workspace: Workspace,
     /// The equations with derivatives by the time.
     over_time: Sensitivity,
+    dissipation: Dissipation,
 }
 
 /// A time at which the motion changes.
@@ -73,10 +76,22 @@ pub(super) struct SlopeRow {
 }
 
 impl<'a> Reader<'a> {
-    pub fn new(model: &Arc<Model>, measures: Vec<Measure>, course: StateSlopes<'a>) -> Self {
+    /// `bounds` are the ends of the steps of the run.
+    pub fn new(
+        model: &Arc<Model>,
+        mut measures: Vec<Measure>,
+        course: StateSlopes<'a>,
+        bounds: &[f64],
+    ) -> Self {
         let (workspace, over_time) = (Workspace::new(model), Sensitivity::new(model.lift()));
         let (model, corners) = (Arc::clone(model), Vec::new());
-        let mut reader = Self { model, measures, course, corners, workspace, over_time };
+        let conditions = match &course {
+            StateSlopes::Dynamics(motion) => motion.conditions(),
+            StateSlopes::Driven(..) => Vec::new(),
+        };
+        let dissipation = Dissipation::new(&model, &mut measures, &conditions, bounds.to_vec());
+        let mut reader =
+            Self { model, measures, course, corners, workspace, over_time, dissipation };
         reader.follow();
         reader
     }
@@ -100,6 +115,34 @@ impl<'a> Reader<'a> {
     /// # Errors
     /// The reason for which there are no derivatives.
     pub fn at(&mut self, t: f64) -> Result<SlopeRow, String> {
+        while self.dissipation.is_behind(t) {
+            self.dissipate(t)?;
+        }
+        self.instant(t)
+    }
+
+    /// Sums the dissipated energies over a step, or to the start of the run.
+    fn dissipate(&mut self, t: f64) -> Result<(), String> {
+        if self.dissipation.t.is_nan() {
+            let row = self.instant(self.dissipation.start())?;
+            let late = match &self.course {
+                StateSlopes::Dynamics(motion) => motion.late_start().to_vec(),
+                StateSlopes::Driven(..) => vec![0.0; row.variables],
+            };
+            self.dissipation.begin(&row.values, &late);
+            return Ok(());
+        }
+        let (end, points) = self.dissipation.panel(t);
+        for [t, duration] in points {
+            let row = self.instant(t)?;
+            self.dissipation.add(duration, &row.values, &row.slopes);
+        }
+        self.dissipation.t = end;
+        Ok(())
+    }
+
+    /// The measures at a time with the energies at present.
+    fn instant(&mut self, t: f64) -> Result<SlopeRow, String> {
         while let StateSlopes::Dynamics(motion) = &mut self.course {
             match motion.corner().filter(|corner| *corner <= t) {
                 Some(corner) => self.turn(corner)?,
@@ -117,7 +160,7 @@ impl<'a> Reader<'a> {
     /// The reason for which there are no derivatives.
     pub fn end(&mut self, t: f64) -> Result<(Vec<Vec<Slope>>, Vec<f64>), String> {
         let row = self.at(t)?;
-        let late = match row.slopes.is_empty() {
+        let late = match self.dissipation.first == 0 {
             true => vec![0.0; row.variables],
             false => {
                 let name = "the condition that ends the motion";
@@ -165,10 +208,17 @@ impl<'a> Reader<'a> {
         motion.turn(&late)?;
         self.follow();
         let states = self.states(t)?;
-        let after = self.row(t, states, &[])?;
+        let after = self.row(t, states.clone(), &[])?;
         before.slopes.truncate(self.measures.len());
         before.values.truncate(self.measures.len());
-        self.corners.push(Corner { late, names, sides: [before, after] });
+        let mut corner = Corner { late, names, sides: [before, after] };
+        if !self.dissipation.forces.is_empty() {
+            for (side, sign) in corner.sides.iter().zip([1.0, -1.0]) {
+                self.dissipation.move_by(&side.values, &corner.late, sign);
+            }
+            corner.sides[1] = self.row(t, states, &[])?;
+        }
+        self.corners.push(corner);
         Ok(())
     }
 
@@ -211,8 +261,9 @@ impl<'a> Reader<'a> {
             StateSlopes::Driven(blocks, _) => blocks,
         };
         let mut slopes = vec![Vec::new(); self.measures.len() + triggers.len()];
-        for (block, state) in blocks.iter_mut().zip(&mut states) {
+        for (b, (block, state)) in blocks.iter_mut().zip(&mut states).enumerate() {
             let at = Slope::constant(t);
+            self.dissipation.append(model, b, state);
             let [q, v, z, works] = layout.split(state);
             match solves {
                 true => {
@@ -234,7 +285,7 @@ impl<'a> Reader<'a> {
         y: &[f64],
         (solves, triggers): (bool, &[Trigger]),
     ) -> Result<Vec<[f64; 2]>, String> {
-        let Self { model, workspace, over_time, measures, .. } = self;
+        let Self { model, workspace, over_time, measures, dissipation, .. } = self;
         let model: &Model = model;
         let failed = |_| format!("the equations of motion have no unique solution at t = {t:.6} s");
         let [q, v, z, works] = model.layout.split(y);
@@ -253,6 +304,12 @@ impl<'a> Reader<'a> {
         let mut state: Vec<Slope> = y.iter().zip(&rates).map(along).list();
         let powers = [powers.dissipated, powers.drivers, powers.applied];
         state.extend(works.iter().zip(&powers).map(along));
+        dissipation.append_each(model, &mut state, |place| {
+            let acting = Acting { z, lam: Some(workspace.lam()), t };
+            let force = dissipation.forces[place];
+            let power = forces::dissipated(model, force, &workspace.motions, acting);
+            along((&dissipation.values[place], &power))
+        });
         let at = Dual::variable(t, 0);
         let [q, v, z, works] = model.layout.split(&state);
         match solves {

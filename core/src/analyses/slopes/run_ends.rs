@@ -61,3 +61,8 @@ pub(super) fn refusal(run: &Run, is_driven: bool) -> Option<String> {
     }
     None
 }
+
+/// The ends of the steps of a run; its outputs if they are not known.
+pub(super) fn steps(run: &Run) -> &[f64] {
+    run.dense.as_ref().map_or(&run.trajectory.t, |dense| &dense.t)
+}

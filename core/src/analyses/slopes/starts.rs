@@ -1,7 +1,7 @@
 //! The derivatives of the start of an analysis: an assembled state, or the end of the analysis before.
 
 use super::reader::{Reader, StateSlopes, States};
-use super::run_ends::{ending, refusal, state_at};
+use super::run_ends::{ending, refusal, state_at, steps};
 use super::variables::parameters;
 use crate::analyses::assemble::{self, set_slopes, StartSlopes};
 use crate::analyses::dynamics::Options;
@@ -99,7 +99,8 @@ impl Sweep {
             }
         };
         let ends = ending(model, &run, &ready.analysis)?;
-        let mut reader = Reader::new(whole.model(), ends.into_iter().collect(), course);
+        let mut reader =
+            Reader::new(whole.model(), ends.into_iter().collect(), course, steps(&run));
         let (blocks, late) = reader.end(*run.trajectory.t.last().ok_or_else(unknown)?)?;
         let parts = |y: Vec<Slope>| -> StartSlopes {
             let [q, v, z, _] = model.layout.split(&y);

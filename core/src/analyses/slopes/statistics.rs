@@ -23,6 +23,8 @@ pub(super) enum SlopePlan {
     Extreme(Extreme, Vec<f64>),
     /// The time of the largest or the least value.
     TimeOf(Extreme, Vec<f64>),
+    /// The largest value, the least value or the largest magnitude at the outputs.
+    Outputs(Statistic),
     /// An integral, a mean or a root mean square, from values at points with weights.
     Integral(Statistic, Integrals),
     /// The settling time, the time of the largest deviation, and the last time.
@@ -121,6 +123,20 @@ impl SlopePlan {
         }
     }
 
+    /// The plan of a statistic of a quantity of a whole run, which has values at the outputs. Its integrals are known if
+    /// there is a series.
+    pub fn of_run(series: Option<&Series<'_>>, statistic: Statistic, times: RunTimes<'_>) -> Self {
+        match (statistic, series) {
+            (Statistic::Final, _) => Self::Final(times.outputs[times.outputs.len() - 1]),
+            (Statistic::Max | Statistic::Min | Statistic::Peak, _) => Self::Outputs(statistic),
+            (one, Some(series)) if one.is_integral() => Self::of(series, one, times),
+            (one, None) if one.is_integral() => {
+                Self::None("it is a sum over the outputs, whose times may move".to_string())
+            }
+            _ => Self::None("it is the time of an output, which changes in steps".to_string()),
+        }
+    }
+
     /// The plan of the largest magnitude, from the largest and the least value.
     fn of_peak(most: (Extreme, Vec<f64>), least: (Extreme, Vec<f64>)) -> Self {
         let [high, low] = [most.0, least.0].map(|one| one.value.abs());
@@ -142,19 +158,10 @@ impl SlopePlan {
                 each.flat_map(|t| [&[t, near(t)], &times.beside(t)[..]].concat()).list()
             }
             Self::Integral(_, found) => found.t.clone(),
+            Self::Outputs(_) => times.outputs.to_vec(),
             Self::Settling(all) => all.to_vec(),
             Self::None(_) | Self::Zero => Vec::new(),
         }
-    }
-
-    /// The value of measure `k` from its rows; NaN if it does not follow from them.
-    pub fn value(&self, rows: &SlopeRows, k: usize) -> f64 {
-        let found = match self {
-            Self::Final(_) => rows.end_row().map(|row| row.values[k][0]),
-            Self::Integral(of, found) => rows.integral(*of, k, found),
-            _ => return f64::NAN,
-        };
-        found.unwrap_or(f64::NAN)
     }
 
     /// The derivatives of measure `k`, or of its magnitude if it is a peak, from its rows at all times.
@@ -176,6 +183,7 @@ impl SlopePlan {
             }
             Self::TimeOf(found, rivals) => rows.agreed(k, (found, rivals), times)?.of_time,
             Self::Integral(of, found) => rows.slopes_of_integral(*of, k, found),
+            Self::Outputs(of) => rows.slopes_of_extreme(times.outputs, k, *of),
             Self::Settling([t, most, last]) => {
                 let [entry, peak, end] = [at(*t)?, at(*most)?, at(*last)?];
                 let last = rows.final_slopes(k)?;

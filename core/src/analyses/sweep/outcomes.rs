@@ -96,7 +96,10 @@ impl Sweep {
                 let [most, least] = one.extremes();
                 [most, least, one.is_integral()]
             });
-            let all = own.fold([false; 3], |all, own| each([0, 1, 2], |k| all[k] || own[k]));
+            let mut all = own.fold([false; 3], |all, own| each([0, 1, 2], |k| all[k] || own[k]));
+            if measure.is_of_run() {
+                all = [false, false, all[2] && !measure.is_at_outputs()];
+            }
             Ok((measure, all))
         });
         let (measures, wanted) = measures.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();

@@ -4,7 +4,7 @@ use super::readings::Missing;
 use super::statistic::Statistic;
 use crate::analyses::record::{self, parts, ErrorClass};
 use crate::analyses::{declarations, kind_of};
-use crate::model::{Definition, Entry, Model, Value};
+use crate::model::{Definition, Entry, Functions, Model, Value};
 use std::sync::Arc;
 
 /// A case whose variants are run.
@@ -53,10 +53,22 @@ pub enum Outcome {
 pub type VariantRow = (Vec<(String, f64)>, Vec<(String, f64)>);
 
 impl Sweep {
-    /// Whether this module can compute variants of a model. The model must not have functions of the caller, or
-    /// redundant joints if quantities are read.
+    /// Whether this module can compute variants of a model. The model must not have functions of the caller without
+    /// derivatives, or redundant joints if quantities are read.
     pub fn serves(model: &Model, reads_quantities: bool) -> bool {
-        !(model.allow_redundancy && reads_quantities) && model.blueprint.functions.is_none()
+        let functions = model.blueprint.functions.as_ref();
+        !(model.allow_redundancy && reads_quantities)
+            && functions.is_none_or(Functions::have_slopes)
+    }
+
+    /// Whether functions of the caller, which see the parameters of the model, exclude other values.
+    pub(super) fn excludes(&self, parameters: &[(String, f64)]) -> bool {
+        let names = &self.model.blueprint.parameters;
+        let kept = |(name, x): &(String, f64)| {
+            let place = names.iter().position(|known| known == name);
+            place.is_some_and(|k| self.model.parameters[k] == *x)
+        };
+        self.model.blueprint.functions.is_some() && !parameters.iter().all(kept)
     }
 
     /// Whether a quantity is read, and not only numbers that the analysis declares.

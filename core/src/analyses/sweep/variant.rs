@@ -39,6 +39,9 @@ impl Sweep {
         if self.analyses.is_empty() || !Self::serves(&self.model, self.reads_quantities()) {
             return Err(Outcome::Single);
         }
+        if self.excludes(parameters) {
+            return Err(Outcome::Single);
+        }
         let model = self.model.with_values(parameters).map_err(|_| Outcome::Single)?;
         let set = self.set_of(start).ok_or(Outcome::Single)?;
         let request = self.request(&model, &set).ok_or(Outcome::Single)?;

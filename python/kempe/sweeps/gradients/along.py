@@ -49,8 +49,7 @@ class SlopesAlong:
                 variable, or it is not known how the start depends on the variables.
         """
         names = tuple(texts(variables, "slopes"))
-        if model.functions:
-            refuse_derivatives(model.functions)
+        refuse_derivatives(model.functions)
         if start.origin is None:
             raise ModelError(
                 "slopes: it is not known how the start depends on the variables",
@@ -59,7 +58,8 @@ class SlopesAlong:
             )
         origin = start.origin.then(run)
         made = {"set": dict(origin.set), "guess": dict(origin.guess)}
-        case = Case(Model.of_compiled(model), made, origin.analyses)
+        own = model.model if model.functions else Model.of_compiled(model)
+        case = Case(own, made, origin.analyses)
         check_names(case, names, '["L2"]')
         plan = Plan(case, list(origin.analyses)[-1], names, ())
         row = fixed(list(present(case, names).values()))

@@ -39,9 +39,7 @@ def planned(case: Case, *given: Any) -> Plan:
     check_names(case, names, '["L2"]')
     if len(set(names)) < len(names):
         refuse("variables", "one of them is given twice")
-    functions = case.model.compile().functions
-    if functions:
-        refuse_derivatives(functions)
+    refuse_derivatives(case.model.compile().functions)
     return plan_of(case, asked, names)
 
 

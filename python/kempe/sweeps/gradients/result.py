@@ -55,6 +55,8 @@ class Gradient:
         variables: the values of the variables by name, in the order given, in SI units and rad.
         jacobian: the derivatives, (n_measures, n_variables), in SI units and rad; NaN where there
             is none.
+        hessian: the second derivatives, (n_measures, n_variables, n_variables), with ``second``;
+            None without. NaN where there is none.
         units: SI units of measures and variables; empty for an unknown one.
         remarks: why a derivative does not exist, or is only one-sided, by measure and variable.
     """
@@ -63,10 +65,10 @@ class Gradient:
         self,
         plan: Plan,
         row: Floats,
-        values: Floats,
-        slopes: Floats,
+        found: tuple[Floats, Floats, Floats | None],
         remarks: Mapping[tuple[int, int], str],
     ) -> None:
+        values, slopes, hessian = found
         texts = [one.text for one in plan.wanted]
         units = {name: plan.unit_of(name) for name in plan.names}
         units |= {one.text: "" if one.unit == "SI" else one.unit for one in plan.wanted}
@@ -74,6 +76,7 @@ class Gradient:
         self.measures: Mapping[str, float] = _view(zip(texts, values.tolist(), strict=True))
         self.variables: Mapping[str, float] = _view(zip(plan.names, row.tolist(), strict=True))
         self.jacobian = fixed(slopes)
+        self.hessian: Floats | None = None if hessian is None else fixed(hessian)
         self.units: Mapping[str, str] = _view(units)
         self.remarks: Mapping[tuple[str, str], str] = _view(told)
 

@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,10 +15,10 @@ from kempe import _core
 from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.errors import IntegrationError, KempeError, ModelError
-from kempe.model.measure_infos import measure_info
-from kempe.results.measures import is_continuous
 from kempe.sweeps.gradients.asked import planned
+from kempe.sweeps.gradients.frequency import of_frequency
 from kempe.sweeps.gradients.result import Gradient
+from kempe.sweeps.gradients.second import hessian_of, refuse_second
 from kempe.sweeps.numbers import reads_quantities
 from kempe.sweeps.plan import Plan
 from kempe.sweeps.reasons import origin_of, reason
@@ -30,12 +31,6 @@ if TYPE_CHECKING:
 #: Relative change of a variable for which the mechanism must exist.
 _CHANGE = 1e-6
 #: The remarks on numbers that the core does not differentiate.
-_OF_RUN = "of a quantity of a whole run, only final values and integrals have derivatives"
-_AT_OUTPUTS = (
-    "kempe has no derivatives of balances yet, nor of the energy that one element dissipates; "
-    "energy.dissipated, of all elements, has them"
-)
-_ALONG = ("final", "integral", "mean", "rms")
 _SINGLE = "kempe has no derivatives of this number yet"
 #: The time and the quantities at which formulas without these are evaluated.
 _AT, _NONE = np.zeros(1), np.zeros((1, 0))
@@ -63,25 +58,27 @@ def gradient(
         variables: names of parameters (``"L2"``), or of coordinates and rates at the start
             (``"crank.angle"``); the variables of sweeps.
         analysis: name of the analysis; the last one of the case by default.
-        second: whether second derivatives are computed too; they are not available yet.
+        second: whether second derivatives are computed too, for ``kinematics`` and ``equilibrium``.
 
     Raises:
         ModelError: a variable or a measure is invalid, a law is a Python function, or a variable
             can be changed neither up nor down.
         KempeError: the run fails.
     """
-    if second:
-        raise ModelError(
-            "second derivatives are not available yet",
-            hint="leave second out, or take differences of two gradients",
-        )
     plan = planned(case, measures, variables, analysis)
+    if second:
+        refuse_second(plan)
     row = np.array(list(present(plan.case, plan.names).values()))
     values, slopes, remarks = numbers_and_slopes(plan, row)
     for of, told in in_analyses(plan, row).items():
         slopes[:, of] = np.nan
         remarks |= {(k, of): told for k in range(len(values))}
-    return Gradient(plan, row, values, slopes, remarks)
+    hessian = None
+    if second:
+        at = partial(numbers_and_slopes, plan)
+        hessian, told_too = hessian_of(plan, at, (row, values, slopes))
+        remarks = {**told_too, **remarks}
+    return Gradient(plan, row, (values, slopes, hessian), remarks)
 
 
 def in_analyses(plan: Plan, row: Floats) -> dict[int, str]:
@@ -116,7 +113,14 @@ def numbers_and_slopes(
     values = np.full(len(plan.wanted), np.nan)
     slopes = np.full((len(values), len(row)), np.nan)
     remarks: dict[tuple[int, int], str] = {}
-    places = [k for k in range(len(values)) if k not in left]
+    for k, one in enumerate(plan.wanted):
+        if one.statistic == "frequency" and k not in left:
+            found_frequency = of_frequency(plan, one, row)
+            if isinstance(found_frequency, str):
+                left[k] = found_frequency
+            else:
+                values[k], slopes[k] = found_frequency
+    places = [k for k in np.flatnonzero(np.isnan(values)).tolist() if k not in left]
     if places:
         try:
             values[places], slopes[places], found = _only(plan, places).slopes(row)
@@ -124,8 +128,10 @@ def numbers_and_slopes(
         except IntegrationError as error:
             # the run itself fails too, with a message that says more, or it has no derivatives
             left |= dict.fromkeys(places, str(error.args[0]))
-    if left:
-        values[list(left)] = [value for value, _ in _only(plan, left).read(row)]
+    # the values of quantities of a run are those at its outputs, which a single run has
+    single = [k for k, one in enumerate(plan.wanted) if k in left or one.of_run]
+    if single:
+        values[single] = [value for value, _ in _only(plan, single).read(row)]
         remarks |= {(k, of): text for k, text in left.items() for of in range(len(row))}
     return values, slopes, remarks
 
@@ -137,13 +143,11 @@ def _only(plan: Plan, places: Iterable[int]) -> Plan:
 
 def _left(plan: Plan, one: Wanted) -> str:
     """Why a number is left to a single run; empty if the core differentiates it."""
-    if one.of_run and one.statistic not in _ALONG:
-        return _OF_RUN
-    if one.of_run and not is_continuous(measure_info(plan.case.model.compile(), one.expression)):
-        return _AT_OUTPUTS
     kind = plan.case.analyses[plan.analysis]["type"]
-    statistics, reads = [one.statistic] if one.statistic else [], reads_quantities(kind, [one.text])
-    return "" if _core.sweeps(plan.case.model.compile().core, statistics, reads) else _SINGLE
+    known = one.statistic and one.statistic != "frequency"
+    statistics, reads = [one.statistic] if known else [], reads_quantities(kind, [one.text])
+    core = plan.case.model.compile().core
+    return "" if _core.sweeps(core, statistics, reads, True) else _SINGLE
 
 
 def _fields(case: Case) -> dict[str, float]:
