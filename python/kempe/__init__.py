@@ -36,7 +36,6 @@ Compute:
     reachable               the region that a point reaches over two quantities
     mobility                freedoms, redundant joints, singular positions, four-bar loops
     configurations          all positions in which the mechanism closes
-    study                   comparison of methods and stabilizations
     RK45, DOP853, RK4, Radau, GeneralizedAlpha, HHT, Auto
                             methods of integration
     Projection, Baumgarte   stabilizations of the constraints
@@ -148,6 +147,8 @@ if TYPE_CHECKING:
     from kempe.results.named_results import Results as Results
     from kempe.results.solution import Solution as Solution
     from kempe.results.state import State as State
+    from kempe.stepping import SavedStep as SavedStep
+    from kempe.stepping import Stepper as Stepper
     from kempe.sweeps import Allocation as Allocation
     from kempe.sweeps import SweepResult as SweepResult
     from kempe.sweeps import Tolerances as Tolerances
@@ -223,10 +224,12 @@ _HOME = {
     "RedundancyError": "errors",
     "Results": "results.named_results",
     "Sampled": "model.functions",
+    "SavedStep": "stepping",
     "SingularityError": "errors",
     "Solution": "results.solution",
     "Start": "analyses.start",
     "State": "results.state",
+    "Stepper": "stepping",
     "Study": "sweeps.studies",
     "SweepResult": "sweeps",
     "Tolerances": "sweeps",

@@ -54,6 +54,8 @@ PAGES = {
         (
             "kempe.assemble",
             "kempe.dynamics",
+            "kempe.Stepper",
+            "kempe.SavedStep",
             "kempe.kinematics",
             "kempe.inverse_dynamics",
             "kempe.equilibrium",
