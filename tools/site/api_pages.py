@@ -77,6 +77,8 @@ PAGES = {
             "kempe.fit",
             "kempe.Data",
             "kempe.Fit",
+            "kempe.compare",
+            "kempe.Comparison",
             "kempe.tolerances",
             "kempe.Tolerances",
             "kempe.allocate",
