@@ -19,7 +19,7 @@ from kempe.base.arguments import explain_methods
 from kempe.base.names import one_of
 from kempe.base.warn import warn
 from kempe.case import Case
-from kempe.errors import KempeError, ModelError
+from kempe.errors import AssemblyError, KempeError, ModelError
 from kempe.model.functions import FunctionWarning
 from kempe.model.model import Model
 from kempe.model.values import refuse
@@ -153,6 +153,11 @@ class Stepper:
             self._run.set([(parameter, number)])
         except KempeError as error:
             error.args = (f"{parameter} = {number:g}: {error.args[0]}", *error.args[1:])
+            if isinstance(error, AssemblyError):
+                error.hint = (
+                    "positions and velocities stay when an input changes; a new stepper of case."
+                    f"with_parameters({{'{parameter}': {number:g}}}) is assembled with this value"
+                )
             raise
         self._moved()
 

@@ -3,6 +3,7 @@
 import itertools
 import math
 import resource
+import signal
 
 import kempe as kp
 import numpy as np
@@ -188,6 +189,22 @@ def test_a_length_that_opens_a_joint_is_refused_by_name() -> None:
     stepper.step(0.1)
 
 
+def test_a_driver_that_would_jump_is_refused_by_name() -> None:
+    m = kp.Model("wheel", gravity=(0, 0), parameters={"w": 2})
+    m.ground.points(O=(0, 0))
+    m.body("wheel", mass=1, inertia=1, points={"O": (0, 0)})
+    m.revolute("pin", "ground.O", "wheel.O")
+    m.coordinate_driver("spin", "wheel.angle", value="w*t")
+    stepper = kp.Stepper(m)
+    stepper.step(1.0)
+    with pytest.raises(kp.AssemblyError, match=r"w = 3: .*driver spin is open by") as caught:
+        stepper.set("w", 3)
+    assert caught.value.name == "spin"
+    assert "with_parameters({'w': 3})" in str(caught.value)
+    stepper.step(1.0)
+    assert stepper["wheel.angle"] == pytest.approx(4.0, rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("parameter", "value", "told"),
     [
@@ -366,6 +383,40 @@ def test_a_step_inside_an_action_is_refused() -> None:
     with pytest.raises(kp.ModelError, match="a step is under way"):
         stepper.step(0.1)
     assert stepper.t == 0.0
+
+
+@pytest.mark.parametrize("name", ["cam_roller", "slamming_door", "four_bar"])
+def test_there_are_events_before_the_first_step(name: str) -> None:
+    """All by name, and none of them has occurred, also after a state is restored."""
+    stepper = kp.Stepper(kp.load(f"examples/{name}.toml"))
+    names = list(stepper.events)
+    assert not any(len(event.t) for event in stepper.events.values())
+    saved = stepper.save()
+    stepper.step(0.5)
+    assert list(stepper.events) == names
+    stepper.restore(saved)
+    assert list(stepper.events) == names
+    assert not any(len(event.t) for event in stepper.events.values())
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="signals as POSIX has them")
+def test_an_interruption_leaves_the_state_before_the_step() -> None:
+    stepper = kp.Stepper(pendulum())
+    stepper.step(0.5)
+    before = stepper.state.q.tobytes()
+
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    old = signal.signal(signal.SIGALRM, interrupt)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        with pytest.raises(KeyboardInterrupt):
+            stepper.step(1e5)
+    finally:
+        signal.signal(signal.SIGALRM, old)
+    assert (stepper.t, stepper.state.q.tobytes()) == (0.5, before)
+    stepper.step(0.1)
 
 
 def test_the_memory_of_many_steps_is_flat() -> None:

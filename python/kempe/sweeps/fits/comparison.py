@@ -65,7 +65,7 @@ class Comparison:
             the largest one of all quantities with the same unit if this is more.
         at: the time of the largest difference, by quantity.
         quantities: both courses by quantity; see ``Compared``.
-        unread: what was not compared, in words: columns that are no quantities, and times outside
+        unread: what was not compared, in words: columns that are not quantities, and times outside
             of the motion.
     """
 
@@ -134,7 +134,7 @@ def compare(
         solution: the solution; it needs its interpolant.
         reference: another solution; or a table: a CSV file, a data frame, or a mapping of headers
             to arrays. A unit in a header, such as ``rod.angle [deg]``, is converted.
-        columns: headers by quantity, if the headers are no names of quantities:
+        columns: headers by quantity, if the headers are not names of quantities:
             ``{"rod.angle": "phi [deg]"}``; a quantity may be an expression.
         t: header of the times; for a motion over a quantity, of its values.
         quantities: the quantities that are compared; by default all that both have.
@@ -211,7 +211,7 @@ def _quantity(solution: Solution, name: str) -> _Quantity:
     """A quantity by name.
 
     Raises:
-        ModelError: there is no such quantity, and it is no expression of quantities.
+        ModelError: there is no such quantity, and it is not an expression of them.
     """
     compiled = solution.compiled
     try:
@@ -224,7 +224,7 @@ def _quantity(solution: Solution, name: str) -> _Quantity:
         at = partial(quantities_by_name.named, name=name)
         return _Quantity(named.unit, named.read, lambda motion: at(motion).read())
     if not info.quantities:
-        raise ModelError(f"{name}: it is no quantity of the mechanism", name=name)
+        raise ModelError(f"{name}: it is not a quantity of the mechanism", name=name)
 
     def read(motion: Motion) -> Floats:
         return values_of(motion, info, solution.energy_at(motion.t) if info.is_of_run else None)
@@ -265,7 +265,7 @@ def _of_table(
             if _is_quantity(solution, name):
                 chosen[name] = header
             else:
-                unread.append(f"column {header!r}, which is no quantity of the mechanism")
+                unread.append(f"column {header!r}, which is not a quantity of the mechanism")
     for name in asked or ():
         if name not in chosen:
             raise ModelError(f"quantities: the table has no column of {name}", name=name)
