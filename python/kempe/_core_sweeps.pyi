@@ -205,6 +205,8 @@ class SteppedRun:
     """The time reached, s."""
     state: tuple[float, _F, _F, _F]
     """Time, q, v and z."""
+    works: _F
+    """(3,), J: dissipated energy, work of drivers, work of applied forces."""
     setting: tuple[list[tuple[str, float]], list[str], list[tuple[int, str, float, int, float]]]
     """Parameters, released drivers and modes of forces that differ from the model."""
     stopped_by: str | None

@@ -21,8 +21,12 @@ from kempe.base.warn import warn
 from kempe.case import Case
 from kempe.errors import AssemblyError, KempeError, ModelError
 from kempe.model.functions import FunctionWarning
+from kempe.model.measure_infos import MeasureInfo, measure_info
 from kempe.model.model import Model
 from kempe.model.values import refuse
+from kempe.results.energy import Energy
+from kempe.results.measures import is_continuous
+from kempe.results.quantities import values_of
 from kempe.results.solution import Solution
 from kempe.results.state import State
 
@@ -113,7 +117,21 @@ class Stepper:
         return self._state
 
     def __getitem__(self, name: str) -> Any:
+        info = self._model.measures.get(name)
+        if name.startswith("energy.") or (info is not None and info.is_of_run):
+            return self._energetic(info or measure_info(self._model, name))
         return self.state[name]
+
+    def _energetic(self, info: MeasureInfo) -> float:
+        """A quantity that depends on the works since the start."""
+        if not is_continuous(info):
+            raise ModelError(
+                f"{info.name}: a balance, or the loss of one element, belongs to a whole run",
+                hint="kp.dynamics gives it; energy.dissipated is the loss of all elements",
+            )
+        rows = self._run.works[None]
+        (found,) = self.state._asked(lambda states, works: [states.energies(works)], rows)
+        return float(values_of(self.state, info, Energy(found))[0])
 
     @property
     def parameters(self) -> Mapping[str, float]:

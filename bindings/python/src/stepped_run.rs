@@ -133,6 +133,12 @@ impl PySteppedRun {
         Ok((t, q.into_pyarray(py), v.into_pyarray(py), z.into_pyarray(py)))
     }
 
+    /// Dissipated energy and works since the start, J.
+    #[getter]
+    fn works<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        Ok(self.locked(py)?.works().to_vec().into_pyarray(py))
+    }
+
     /// Parameters, released drivers and modes of forces that differ from the model.
     #[getter]
     fn setting(&self, py: Python<'_>) -> PyResult<Written> {

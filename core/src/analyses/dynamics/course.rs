@@ -174,15 +174,6 @@ impl PhasedRun {
         }
     }
 
-    /// Pauses at the end of the options, so that a later part continues there. Events that occurred there do not occur
-    /// again.
-    pub fn pause(&mut self, run: &Run) {
-        let here = |event: &EventStates| event.states.t.last() == Some(&self.at.t);
-        let at_end = run.events.iter().enumerate().filter(|(_, event)| here(event));
-        self.at.fired = at_end.map(|(index, _)| index).list();
-        self.at.pause(run);
-    }
-
     /// Makes a change of the caller while the course pauses.
     pub fn change(
         &mut self,

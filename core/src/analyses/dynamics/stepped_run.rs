@@ -144,7 +144,7 @@ impl<M: Deref<Target = Model>> SteppedRun<M> {
         if run.reached || run.stopped_by.is_some() {
             run.doubts = now.course.guard.judge_part(base.0, &run)?;
         }
-        now.course.pause(&run);
+        now.course.at.pause(&run);
         now.largest_energy = run.largest_energy;
         now.stopped_by.clone_from(&run.stopped_by);
         Ok(run)
@@ -169,6 +169,11 @@ impl<M: Deref<Target = Model>> SteppedRun<M> {
     /// The present state.
     pub fn state(&self) -> State {
         self.now.course.at.state(self.prepared.model())
+    }
+
+    /// Works up to the present state, J: dissipated energy, work of drivers, work of applied forces.
+    pub fn works(&self) -> &[f64] {
+        self.prepared.model().layout.split(&self.now.course.at.y)[3]
     }
 
     /// The parameters, released drivers and modes that hold at present.
