@@ -11,6 +11,7 @@
 //! - [`Run`] holds the reported states. From them follow coordinates ([`Run::coordinate`]), reactions
 //!   ([`Run::reactions`]), accelerations and multipliers ([`Run::accelerations`]) and energies ([`Run::energies`]).
 //! - [`Stepper`] is for a program that takes the steps itself. It locates events and continues from other states.
+//! - [`SteppedRun`] is a run that a host program advances part by part, with other inputs in each part.
 //! - [`Problems`] and [`failures`] describe the faults of a model, or the reason that a mechanism cannot be assembled
 //!   or simulated.
 #![forbid(unsafe_code)]
@@ -44,8 +45,8 @@ pub mod symbolic;
 pub use analyses::assemble::{assemble, Report, Request};
 pub use analyses::dynamics::read as read_options;
 pub use analyses::dynamics::{
-    dynamics, Options, Output, Run, Scheme, Singularity, Stabilization, Statistics, Stepper,
-    Trajectory,
+    dynamics, Options, Output, Run, Scheme, Singularity, Stabilization, Statistics, SteppedRun,
+    Stepper, Trajectory,
 };
 pub use analyses::{mobility, Mobility, NoResult, State};
 pub use case::{Case, ModelBuilder, Start};

@@ -27,6 +27,7 @@ Build:
 Compute:
     assemble                a state in which all joints are closed
     dynamics                the motion from a state
+    Stepper                 the motion in steps of another program, with inputs in between
     kinematics              the motion that drivers determine
     inverse_dynamics        the driven motion with driver efforts and joint reactions
     equilibrium             equilibrium positions, their stability, paths over a parameter
@@ -37,6 +38,7 @@ Compute:
     mobility                freedoms, redundant joints, singular positions, four-bar loops
     configurations          all positions in which the mechanism closes
     study                   comparison of methods and stabilizations
+    compare                 differences to another solution or to a table
     RK45, DOP853, RK4, Radau, GeneralizedAlpha, HHT, Auto
                             methods of integration
     Projection, Baumgarte   stabilizations of the constraints
@@ -149,14 +151,18 @@ if TYPE_CHECKING:
     from kempe.results.named_results import Results as Results
     from kempe.results.solution import Solution as Solution
     from kempe.results.state import State as State
+    from kempe.stepping import SavedStep as SavedStep
+    from kempe.stepping import Stepper as Stepper
     from kempe.sweeps import Allocation as Allocation
     from kempe.sweeps import SweepResult as SweepResult
     from kempe.sweeps import Tolerances as Tolerances
     from kempe.sweeps import allocate as allocate
     from kempe.sweeps import sweep as sweep
     from kempe.sweeps import tolerances as tolerances
+    from kempe.sweeps.fits import Comparison as Comparison
     from kempe.sweeps.fits import Data as Data
     from kempe.sweeps.fits import Fit as Fit
+    from kempe.sweeps.fits import compare as compare
     from kempe.sweeps.fits import fit as fit
     from kempe.sweeps.gradients import Gradient as Gradient
     from kempe.sweeps.gradients import gradient as gradient
@@ -178,6 +184,7 @@ _HOME = {
     "Auto": "analyses.options",
     "Baumgarte": "analyses.options",
     "Case": "case",
+    "Comparison": "sweeps.fits",
     "Configurations": "analyses.options",
     "ConfigurationsResult": "analyses.configurations",
     "DOP853": "analyses.options",
@@ -225,10 +232,12 @@ _HOME = {
     "RedundancyError": "errors",
     "Results": "results.named_results",
     "Sampled": "model.functions",
+    "SavedStep": "stepping",
     "SingularityError": "errors",
     "Solution": "results.solution",
     "Start": "analyses.start",
     "State": "results.state",
+    "Stepper": "stepping",
     "Study": "sweeps.studies",
     "SweepResult": "sweeps",
     "Tolerances": "sweeps",
@@ -236,6 +245,7 @@ _HOME = {
     "allocate": "sweeps",
     "animate": "draw.animate",
     "assemble": "analyses.assembly",
+    "compare": "sweeps.fits",
     "configurations": "analyses.configurations",
     "design": "",
     "draw": "",

@@ -1,11 +1,11 @@
-"""Mobility, measures and sweeps of the compiled core, a part of the interface ``kempe._core``."""
+"""Mobility, measures, sweeps and stepped runs: a part of the interface ``kempe._core``."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from kempe._core import Model
+from kempe._core import Model, Run
 
 _F = NDArray[np.float64]
 
@@ -192,3 +192,38 @@ def configurations(model: Model, held: str, limit: int, t: float) -> tuple[_F, _
 
     The JSON has ``complete``, ``left_out`` and ``reports``.
     """
+
+class SavedRun:
+    """A state of a stepped run from which it continues."""
+
+class SteppedRun:
+    """A run that advances part by part."""
+
+    def __new__(
+        cls,
+        model: Model,
+        options: str,
+        at: tuple[float, _F, _F, _F],
+        released: Sequence[str],
+        actions: tuple[list[str], Callable[..., object]] | None = None,
+    ) -> SteppedRun: ...
+    t: float
+    """The time reached, s."""
+    state: tuple[float, _F, _F, _F]
+    """Time, q, v and z."""
+    works: _F
+    """(3,), J: dissipated energy, work of drivers, work of applied forces."""
+    setting: tuple[list[tuple[str, float]], list[str], list[tuple[int, str, float, int, float]]]
+    """Parameters, released drivers and modes of forces that differ from the model."""
+    stopped_by: str | None
+    """The event that has stopped the run."""
+
+    def step(self, duration: float) -> list[str]:
+        """Advances by a duration, s; returns its doubts."""
+
+    def set(self, parameters: Sequence[tuple[str, float]]) -> None:
+        """Gives parameters other values."""
+
+    def save(self) -> SavedRun: ...
+    def restore(self, saved: SavedRun) -> None: ...
+    def last_part(self) -> Run: ...

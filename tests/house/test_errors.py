@@ -32,6 +32,7 @@ AT_ONCE = _core.States(MODEL, TIMES, ROW, ROW, STATES, ROW, LAM)
 OPTIONS = '{"type": "dynamics", "t_end": 0.01}'
 AT = (T, Q, V, Z)
 RECORD = _core.run_analysis(MODEL, OPTIONS, AT, [], None)
+STEPPED = _core.SteppedRun(MODEL, OPTIONS, AT, [])
 RUN = RECORD.run
 assert RUN is not None
 
@@ -65,6 +66,12 @@ CALLS: dict[str, Callable[[], object]] = {
     "Record.number": lambda: RECORD.number("count"),
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,
+    "SteppedRun": lambda: _core.SteppedRun(MODEL, OPTIONS, AT, []),
+    "SteppedRun.step": lambda: STEPPED.step(0.01),
+    "SteppedRun.set": lambda: STEPPED.set([]),
+    "SteppedRun.save": STEPPED.save,
+    "SteppedRun.restore": lambda: STEPPED.restore(STEPPED.save()),
+    "SteppedRun.last_part": STEPPED.last_part,
     "measure": lambda: _core.measure(MODEL, "C.force"),
     "measure_values": lambda: _core.measure_values(MODEL, "C.force", TIMES, ROW[:, :1]),
     "measure_slopes": lambda: _core.measure_slopes(MODEL, ["t"], ROW[0]),
@@ -168,7 +175,7 @@ def test_every_function_and_method_of_the_core_is_in_the_list_of_calls() -> None
         for method, member in vars(entry).items()
         if not method.startswith("_") and callable(member)
     }
-    made_by_python = {"Case", "States", "_raise"}
+    made_by_python = {"Case", "States", "SteppedRun", "_raise"}
     assert set(CALLS) == (public.keys() - classes.keys()) | methods | made_by_python
 
 

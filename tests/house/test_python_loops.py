@@ -14,7 +14,7 @@ ROWS = (
     ("results",),
     ("analyses",),
     ("case",),
-    ("design", "draw", "report", "studio", "sweeps", "templates"),
+    ("design", "draw", "report", "stepping", "studio", "sweeps", "templates"),
     ("plot",),
     ("lab_report", "notebook"),
     ("cli",),

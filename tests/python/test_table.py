@@ -201,7 +201,7 @@ def test_coordinates_of_a_joint_are_columns_with_their_rates() -> None:
         state_names=lambda: ["motor.current"],
     )
     solution: Any = SimpleNamespace(compiled=compiled)
-    assert list(table._names(solution, table.Extent()))[:6] == [
+    assert list(table.column_names(solution, table.Extent()))[:6] == [
         *("cam.u", "cam.u_rate", "cam.v", "cam.v_rate"),
         *("pin.lambda_x", "motor.current"),
     ]

@@ -54,6 +54,8 @@ PAGES = {
         (
             "kempe.assemble",
             "kempe.dynamics",
+            "kempe.Stepper",
+            "kempe.SavedStep",
             "kempe.kinematics",
             "kempe.inverse_dynamics",
             "kempe.equilibrium",
@@ -75,6 +77,8 @@ PAGES = {
             "kempe.fit",
             "kempe.Data",
             "kempe.Fit",
+            "kempe.compare",
+            "kempe.Comparison",
             "kempe.tolerances",
             "kempe.Tolerances",
             "kempe.allocate",

@@ -26,6 +26,7 @@ mod respond;
 mod run_analysis;
 mod states;
 mod statistics;
+mod stepped_run;
 mod sweep;
 mod tables;
 mod transmission;
@@ -113,6 +114,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<dynamics::PyRun>()?;
     module.add_class::<states::PyStates>()?;
     module.add_class::<run_analysis::PyRecord>()?;
+    module.add_class::<stepped_run::PySteppedRun>()?;
+    module.add_class::<stepped_run::PySavedRun>()?;
     module.add_function(wrap_pyfunction!(run_analysis::run_analysis, module)?)?;
     module.add_function(wrap_pyfunction!(run_analysis::driven_by, module)?)?;
     module.add_function(wrap_pyfunction!(version, module)?)?;

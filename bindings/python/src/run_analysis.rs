@@ -41,7 +41,7 @@ pub struct PyRecord {
 type Written = (Py<PyModel>, String, String, String, f64, bool);
 
 /// Time, q, v and z.
-type At<'py> = (f64, Row<'py>, Row<'py>, Row<'py>);
+pub type At<'py> = (f64, Row<'py>, Row<'py>, Row<'py>);
 
 impl PyRecord {
     fn new(
@@ -259,7 +259,7 @@ impl Work {
 }
 
 /// Calls the function of an event.
-fn called(
+pub fn called(
     py: Python<'_>,
     call: &Py<PyAny>,
     model: &Model,
@@ -281,7 +281,12 @@ pub struct RecentAnalysis(Mutex<Option<(String, AnyAnalysis)>>);
 
 /// Reads an entry of `analyses` such as `{"type": "dynamics", "t_end": 15, "method": {"type": "rk45", …}, …}`.
 /// `t_end`, if given, replaces the value in the text.
-fn read(py: Python<'_>, model: &PyModel, text: &str, t_end: Option<f64>) -> PyResult<AnyAnalysis> {
+pub fn read(
+    py: Python<'_>,
+    model: &PyModel,
+    text: &str,
+    t_end: Option<f64>,
+) -> PyResult<AnyAnalysis> {
     let last = model.recent.0.lock().unwrap_or_else(PoisonError::into_inner);
     let known = last.as_ref().filter(|(known, _)| known == text).map(|(_, it)| it.clone());
     drop(last);

@@ -148,6 +148,11 @@ impl ImplicitScheme for AlphaProgress {
     }
 
     #[inline]
+    fn size(&self) -> Option<f64> {
+        self.size.as_ref().map(|size| size.size)
+    }
+
+    #[inline]
     fn forget(&mut self) -> Option<f64> {
         self.step.forget();
         self.power_slopes.fill(0.0);

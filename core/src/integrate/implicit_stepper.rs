@@ -39,6 +39,9 @@ pub(super) trait ImplicitScheme: Sized + 'static {
         dae: &mut CountedDae<'_, Y>,
     ) -> Result<(), Cause<Y::Stop>>;
 
+    /// The size of the next trial step, if it is known.
+    fn size(&self) -> Option<f64>;
+
     /// Discards data of earlier steps. Returns the size of the next trial step, if it is known.
     fn forget(&mut self) -> Option<f64>;
 }
@@ -97,6 +100,11 @@ impl<M: ImplicitScheme, Y: Dae> Stepper<Y, Y::Stop> for ImplicitStepper<M> {
     #[inline]
     fn y(&self) -> &[f64] {
         self.steps.y()
+    }
+
+    #[inline]
+    fn next_size(&self) -> Option<f64> {
+        self.method.size()
     }
 
     fn restart_until(&mut self, t: f64, y: &[f64], t_end: f64) -> Result<(), Cause<Y::Stop>> {

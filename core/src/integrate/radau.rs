@@ -111,6 +111,11 @@ impl ImplicitScheme for RadauProgress {
     }
 
     #[inline]
+    fn size(&self) -> Option<f64> {
+        self.size
+    }
+
+    #[inline]
     fn forget(&mut self) -> Option<f64> {
         (self.keep_tangent, self.before) = (false, None);
         self.step.forget();

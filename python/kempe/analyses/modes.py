@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
@@ -13,6 +14,7 @@ from kempe.analyses.options import Modes
 from kempe.analyses.record import Record, check, run_analysis
 from kempe.base.arguments import explained
 from kempe.base.arrays import Floats, fixed
+from kempe.base.exports import identifiers, needed, write_mat
 from kempe.errors import ModelError
 from kempe.model.compiled import CompiledModel
 from kempe.model.model import Model, compiled_model
@@ -116,6 +118,34 @@ class ModesResult(Result):
         return np.asarray(
             self.C @ np.linalg.solve(s * unit - self.A, self.B) + self.D, dtype=np.complex128
         )
+
+    def to_control(self) -> Any:
+        """The state space as a ``StateSpace`` of python-control, with names such as ``crank_y``.
+
+        A name of python-control contains no point, so ``crank.y`` is ``crank_y`` there.
+
+        Raises:
+            ModelError: python-control is not installed.
+        """
+        control = needed("control", "control", "to_control")
+        groups = (self.inputs, self.outputs, self.state_names)
+        inputs, outputs, states = (identifiers(names) for names in groups)
+        matrices = (np.array(of) for of in (self.A, self.B, self.C, self.D))
+        return control.ss(*matrices, inputs=inputs, outputs=outputs, states=states)
+
+    def to_mat(self, path: Path | str) -> None:
+        """Write the state space as a ``.mat`` file of MATLAB.
+
+        It contains A, B, C, D, and the cell arrays ``inputs``, ``outputs`` and ``states``, so that
+        ``ss(A, B, C, D)`` in MATLAB gives the system.
+
+        Raises:
+            ModelError: SciPy is not installed.
+            FileError: the file cannot be written; an existing file is not changed.
+        """
+        texts = {"inputs": self.inputs, "outputs": self.outputs, "states": self.state_names}
+        matrices = {name: getattr(self, name) for name in ("A", "B", "C", "D")}
+        write_mat(path, (), matrices | texts)
 
     def summary(self) -> dict[str, Any]:
         """The result as plain data."""

@@ -7,6 +7,7 @@ axes are compressed after ``cut=``; ``transient(solution)`` returns a suitable t
 from kempe.base.arguments import explain_functions
 from kempe.plot.body_motion import accelerations, positions, velocities
 from kempe.plot.centres import instant_centres
+from kempe.plot.comparisons import comparison
 from kempe.plot.configuration import configuration
 from kempe.plot.coupler_curves import coupler_curve
 from kempe.plot.efforts import effort, torque_speed
@@ -39,6 +40,7 @@ __all__ = [
     "acceleration_polygon",
     "accelerations",
     "all_reactions",
+    "comparison",
     "configuration",
     "coupler_curve",
     "draw_free_body",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import cached_property
 from pathlib import Path
@@ -30,19 +30,16 @@ from kempe.results.runs import REACHED, STATUS, PartialRun, StoredRun
 from kempe.results.saving import save
 from kempe.results.state import State
 from kempe.results.summary import summary
-from kempe.results.table import Extent, dataframe, dataset, write_csv
+from kempe.results.tables import Tables
 from kempe.results.variable import TIME, Variable
 
 if TYPE_CHECKING:
-    import pandas
-
     from kempe.model.model import Model
     from kempe.results.runs import Run
-    from kempe.results.views.frames import Frame
 
 
 @explain_methods
-class Solution(WithSlopes, Motion):
+class Solution(WithSlopes, Tables, Motion):
     """The solution of a simulation: arrays with time first, read-only, SI units.
 
     Examples: ``sol["rocker"].angle``, ``sol["C"].force(on="coupler")``,
@@ -308,65 +305,6 @@ class Solution(WithSlopes, Motion):
         works = self.dense(motion.t)[..., 2 * self.compiled.n_q + self.compiled.n_z :]
         (found,) = motion._asked(lambda states, works: [states.energies(works)], works)
         return Energy(found)
-
-    def to_dataframe(
-        self,
-        *,
-        frames: Sequence[Frame] = ("global",),
-        points: Sequence[str] | bool = (),
-        index: bool = False,
-    ) -> pandas.DataFrame:
-        """A pandas data frame with a column for each quantity, such as ``rocker.angle``.
-
-        Values are in the units chosen by ``kp.units``; ``attrs["units"]`` contains the units.
-
-        Args:
-            frames: frames of the reactions, as in ``to_csv``.
-            points: points whose paths are columns, as in ``to_csv``.
-            index: whether the time or driven quantity is the index instead of the first column.
-
-        Raises:
-            ModelError: pandas is not installed, or there is no such frame or point.
-        """
-        found = dataframe(self, Extent(frames, points))
-        return found.set_index(self.variable.name) if index else found
-
-    def to_xarray(
-        self, *, frames: Sequence[Frame] = ("global",), points: Sequence[str] | bool = ()
-    ) -> Any:
-        """An xarray ``Dataset`` over the time or driven quantity; see ``to_dataframe``.
-
-        Each variable has the attributes of its column: ``units``, and ``choice`` and ``condition``
-        where the value has one.
-
-        Raises:
-            ModelError: xarray is not installed, or there is no such frame or point.
-        """
-        return dataset(self, Extent(frames, points))
-
-    def to_csv(
-        self,
-        path: Path | str,
-        *,
-        frames: Sequence[Frame] = ("global",),
-        points: Sequence[str] | bool = (),
-    ) -> None:
-        """Write all quantities as CSV, one line per time, with units in the header.
-
-        Values are in the units chosen by ``kp.units``. Each column name is valid in ``sol[name]``.
-
-        Args:
-            path: the file.
-            frames: frames in which reactions on each moving body are written: "global", "body",
-                "joint"; none to leave them out.
-            points: points whose paths are written, such as ``["coupler.P"]``; True for all named
-                points of moving bodies.
-
-        Raises:
-            FileError: the file cannot be written; an existing file is not changed.
-            ModelError: there is no such frame or point.
-        """
-        write_csv(self, path, Extent(frames, points))
 
     def save(self, path: Path | str) -> None:
         """Write the solution and its case to a file of NumPy arrays (``.npz``).

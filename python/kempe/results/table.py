@@ -79,7 +79,7 @@ def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
     """
     first = solution.variable
     table = [column(first.name, first.unit, solution.t)]
-    for name in _names(solution, extent or Extent()):
+    for name in column_names(solution, extent or Extent()):
         if name == first.name:
             continue
         quantity = quantities.named(solution, name)
@@ -102,7 +102,7 @@ def column(name: str, unit: str, values: Floats) -> Column:
     return Column(name, shown.unit, values / shown.divisor)
 
 
-def _names(solution: Solution, extent: Extent) -> Iterator[str]:
+def column_names(solution: Solution, extent: Extent) -> Iterator[str]:
     """Names of the columns, in their order."""
     compiled = solution.compiled
     for name, body in compiled.bodies.items():

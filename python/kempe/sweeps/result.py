@@ -19,6 +19,7 @@ from kempe.base import files
 from kempe.base.arguments import explain_methods
 from kempe.base.arrays import Floats, fixed
 from kempe.base.display_units import units
+from kempe.base.exports import write_mat
 from kempe.base.names import entry
 from kempe.errors import ModelError
 from kempe.results.table import Column, column
@@ -201,6 +202,21 @@ class SweepResult:
         assert isinstance(table, pandas.DataFrame)
         with files.writing(files.checked_path(path, "write")) as file:
             table.to_parquet(file)
+
+    def to_mat(self, path: Path | str) -> None:
+        """Write the table as a ``.mat`` file of MATLAB, with the cell array ``reasons``.
+
+        A variable such as ``C_force_max`` contains a column. The cell arrays ``variables``,
+        ``names`` and ``units`` give the name and the unit of each.
+
+        Raises:
+            ModelError: SciPy is not installed.
+            FileError: the file cannot be written; an existing file is not changed.
+        """
+        shown = [(one.name, one.unit, np.asarray(one.values, float)) for one in self._shown()]
+        rows = len(shown[0][2]) if shown else 0
+        reasons = tuple(self.reasons.get(k, "") for k in range(rows))
+        write_mat(path, shown, {"reasons": reasons})
 
     def case(self, k: int) -> Case:
         """The case of a row, which can be run, drawn, saved and opened in the player.

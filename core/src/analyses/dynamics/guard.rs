@@ -277,6 +277,17 @@ impl Guard {
         Ok(doubts)
     }
 
+    /// The verdict on a part of a run. The states that were examined are then forgotten, so that a run of any length
+    /// needs no more memory.
+    ///
+    /// # Errors
+    /// The errors of [`verdict`](Self::verdict).
+    pub fn judge_part(&mut self, model: &Model, run: &Run) -> Result<Vec<String>, Reason> {
+        let verdict = self.verdict(&|k| owner(model, k), run);
+        self.examined.clear();
+        verdict
+    }
+
     /// The largest residual of the forces, relative to the largest forces of the run. Beside a singular position,
     /// forces have errors in inverse proportion to the square of the distance, and so of the regularity.
     fn worst_forces(&self, name: &dyn Fn(usize) -> String) -> Worst {

@@ -62,6 +62,10 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for ImplicitMotion<'a> {
         self.stepper.y()
     }
 
+    fn next_size(&self) -> Option<f64> {
+        self.stepper.next_size()
+    }
+
     fn restart_until(&mut self, t: f64, y: &[f64], t_end: f64) -> Result<(), Cause<Breakdown>> {
         self.stepper.restart_until(t, y, t_end)
     }

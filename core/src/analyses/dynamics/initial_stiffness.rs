@@ -47,9 +47,7 @@ impl InitialStiffness {
         (t, t_end): (f64, f64),
         y: &[f64],
     ) -> Self {
-        let Some(fastest) = detector.fastest(t, y) else {
-            return Self { fastest: None, pace: 0.0, steps: 0.0, under_way: false };
-        };
+        let Some(fastest) = detector.fastest(t, y) else { return Self::unknown() };
         let v = model.layout.split(y)[1];
         let probe = PROBE / fastest.rate;
         let rates = detector.rates(t, y, probe);
@@ -61,6 +59,11 @@ impl InitialStiffness {
             steps: (t_end - t) * fastest.rate / LIMIT,
             under_way: rates.as_ref().is_none_or(|[_, jerk]| left(jerk)),
         }
+    }
+
+    /// The stiffness of a start that is not examined, or where the equations are singular.
+    pub fn unknown() -> Self {
+        Self { fastest: None, pace: 0.0, steps: 0.0, under_way: false }
     }
 
     /// The fastest motion if it makes the model stiff.

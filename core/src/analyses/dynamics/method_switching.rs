@@ -1,5 +1,6 @@
 //! The automatic choice of the method: changes between DOP853 and Radau, as `stiffness_detection` determines.
 
+use super::continued::Continued;
 use super::implicit_motion::ImplicitMotion;
 use super::initial_stiffness::InitialStiffness;
 use super::methods::Auto;
@@ -12,6 +13,9 @@ use crate::integrate::{
     Stepper,
 };
 use crate::solve::Breakdown;
+
+/// Why the implicit method begins a part of a run.
+const CONTINUED: &str = "stiff before a pause of the run";
 
 /// The stepper of one method.
 enum SwitchedStepper<'a> {
@@ -67,10 +71,11 @@ pub(super) struct MethodSwitching<'a> {
 }
 
 impl<'a> MethodSwitching<'a> {
-    /// Begins with `y` at `t`; `ode` are the equations of motion for explicit methods.
+    /// Begins with `y` at `t`; `ode` are the equations of motion for explicit methods. Steps that are continued keep
+    /// their method.
     pub fn new(
         ode: &MotionOde<'a>,
-        options: &Options,
+        (options, continued): (&Options, Option<Continued>),
         auto: &Auto,
         t: f64,
         y: &[f64],
@@ -81,7 +86,10 @@ impl<'a> MethodSwitching<'a> {
             Dop853 { control: auto.control.clone() }.start(ode, span, y)?,
         );
         let mut detector = StiffnessDetector::new(ode.model, &ode.workspace, t);
-        let initial = InitialStiffness::new(ode.model, &mut detector, auto, span, y);
+        let initial = match continued {
+            Some(_) => InitialStiffness::unknown(),
+            None => InitialStiffness::new(ode.model, &mut detector, auto, span, y),
+        };
         let mut switching = Self {
             options: options.clone(),
             t_end: options.t_end,
@@ -97,6 +105,10 @@ impl<'a> MethodSwitching<'a> {
             choice: MethodChoice { method: "dop853", why: String::new() },
         };
         switching.judge_start();
+        if continued.is_some_and(|of| of.implicit) {
+            switching.choice = MethodChoice { method: "radau", why: CONTINUED.to_string() };
+            (switching.step, switching.due) = (switching.control.first_step, true);
+        }
         Ok(switching)
     }
 
@@ -202,6 +214,11 @@ impl<'a> MethodSwitching<'a> {
         }
     }
 
+    /// Whether the implicit method takes the next step.
+    pub fn is_implicit(&self) -> bool {
+        matches!(self.piece, SwitchedStepper::Implicit(_)) != self.due
+    }
+
     /// Number of factorisations that the methods do not count.
     pub fn factorisations(&self) -> usize {
         self.factorisations + self.piece.factorisations()
@@ -265,6 +282,10 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for MethodSwitching<'a> {
         self.detector.resume(t);
         self.tried.2 = t;
         Ok(())
+    }
+
+    fn next_size(&self) -> Option<f64> {
+        self.piece.get().next_size()
     }
 
     fn statistics(&self) -> StepCounts {

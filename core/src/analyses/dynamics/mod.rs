@@ -10,7 +10,8 @@
 //! | `massless`, `no_mass` | massless bodies whose motion is not determined |
 //! | `shared_reaction` | forces that depend on a reaction that is not unique |
 //! | `start_check` | states from which a run may start |
-//! | `course`, `setting` | the phases of a run, which follow from its events, and their models |
+//! | `course`, `planned_events`, `setting` | the phases of a run, which follow from its events, and their models |
+//! | `stepped_run`, `continued` | a run that a host program advances part by part, and its steps |
 //! | `run`, `event_list`, `run_results` | one phase, its events, and the outcome of a run |
 //! | `stepper` | a stepper for callers |
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; the automatic choice of the method |
@@ -37,6 +38,7 @@ mod branch_averaging;
 mod clock;
 mod constraint_violation;
 mod contact_resolution;
+mod continued;
 mod course;
 mod energies;
 mod event_list;
@@ -64,6 +66,7 @@ mod no_mass;
 mod option_checks;
 mod options;
 mod passages;
+mod planned_events;
 mod prepared;
 mod recorder;
 mod redundant_rows;
@@ -80,6 +83,7 @@ mod singularity_passage;
 mod stabilizations;
 mod stall;
 mod start_check;
+mod stepped_run;
 mod stepper;
 mod stiffness_detection;
 mod switch_schedule;
@@ -90,7 +94,6 @@ mod wide;
 
 pub use accelerations::Accelerations;
 pub use clock::{system_clock, Clock};
-pub(in crate::analyses) use course::{planned, Effect};
 pub use course::{Act, Change};
 pub use energies::ENERGIES;
 pub use failure::{Failure, Reason};
@@ -100,11 +103,13 @@ pub use modes::{can_stick, friction_modes};
 pub(in crate::analyses) use modes::{watched_mode, ModeFunction};
 pub use options::{most_steps, read, Options, Output, Singularity};
 pub use passages::{HeldPieces, Passage, Struck};
+pub(in crate::analyses) use planned_events::{planned, Effect};
 pub use prepared::Prepared;
 pub use run_results::{EventStates, Passed, Run, Statistics};
 pub use setting::Setting;
 pub use side_by_side::{side_by_side, RunOutcome, Trials, Variant};
 pub use stabilizations::Stabilization;
+pub use stepped_run::{SavedRun, SteppedRun};
 pub use stepper::Stepper;
 pub use stiffness_detection::MethodChoice;
 pub use trajectory::{PiecewiseInterpolant, States, Steps, Trajectory};

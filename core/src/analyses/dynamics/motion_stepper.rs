@@ -1,6 +1,7 @@
 //! The stepper of any method on the equations of motion of a model.
 
 use super::contact_resolution::StepChoice;
+use super::continued::Continued;
 use super::failure::{Failure, Reason};
 use super::implicit_motion::ImplicitMotion;
 use super::massless;
@@ -80,19 +81,25 @@ pub(super) struct MotionStepper<'a> {
 }
 
 impl<'a> MotionStepper<'a> {
-    /// Begins with `y` at `t` and ends at `options.t_end`. The schedule contains the switches up to this time.
+    /// Begins with `y` at `t` and ends at `options.t_end`, or continues the steps of another stepper. The schedule
+    /// contains the switches up to the end.
     ///
     /// # Errors
     /// [`Cause`] of invalid options.
     pub fn new(
         mut ode: MotionOde<'a>,
-        options: &Options,
+        (options, continued): (&Options, Option<Continued>),
         schedule: Schedule,
         t: f64,
         y: &[f64],
     ) -> Result<Self, Cause<Breakdown>> {
         let (model, span) = (ode.model, (t, options.t_end));
-        let method = options.bounded_method(model);
+        let mut method = options.bounded_method(model);
+        let control = method.control_mut();
+        if let Some(size) = continued.and_then(|of| of.size).filter(|_| control.step.is_none()) {
+            let first = (options.t_end - t).abs().min(size);
+            control.first_step = Some(first).filter(|first| *first > 0.0);
+        }
         let control = method.control();
         let implicit = |stepper| {
             let method = Method::Implicit(stepper);
@@ -113,7 +120,8 @@ impl<'a> MotionStepper<'a> {
             }
             Scheme::Radau(method) => implicit(ImplicitMotion::new(method, &ode, options, span, y)?),
             Scheme::Auto(auto) => {
-                MethodStepper::Auto(Box::new(MethodSwitching::new(&ode, options, auto, t, y)?))
+                let stepper = MethodSwitching::new(&ode, (options, continued), auto, t, y)?;
+                MethodStepper::Auto(Box::new(stepper))
             }
         };
         let steps = match (&method, control.step) {
@@ -351,6 +359,12 @@ impl<'a> MotionStepper<'a> {
             }
             _ => Failure::of_integrator(model, cause, self.t(), y),
         }
+    }
+
+    /// How another stepper continues the steps.
+    pub fn continued(&self) -> Continued {
+        let implicit = matches!(&self.kind, MethodStepper::Auto(stepper) if stepper.is_implicit());
+        Continued { size: self.kind.get().next_size(), implicit }
     }
 
     /// Number of all factorisations.

@@ -1,5 +1,6 @@
 //! One phase of a run, with its own active constraints. `course` creates the sequence of phases.
 
+use super::continued::Continued;
 use super::event_list::{EventList, StepEvents, Watched};
 use super::failure::Failure;
 use super::feet::Feet;
@@ -23,7 +24,7 @@ use crate::model::Model;
 use crate::solve::Breakdown;
 
 /// The progress of a run through its phases.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Progress {
     /// The start of the run.
     t0: f64,
@@ -33,6 +34,16 @@ pub(super) struct Progress {
     pub fired: Vec<usize>,
     /// The course of the run, which conditions may use.
     pub so_far: SoFar,
+    /// Whether a phase has begun.
+    begun: bool,
+    /// How the steps of the last phase continue.
+    last: Option<Continued>,
+    /// How the next phase continues the last one; None unless the run paused between them.
+    continued: Option<Continued>,
+    /// Whether the state has met the constraints when the run paused.
+    checked: bool,
+    /// The numbers of events in the parts of the run before the last pause.
+    earlier: Vec<usize>,
 }
 
 impl Progress {
@@ -43,6 +54,29 @@ impl Progress {
         y.resize(model.layout.n_y(), 0.0);
         (run.trajectory, run.dense) = recorder::tables(model, options, t0);
         Self { t0, t: t0, y, ..Self::default() }
+    }
+
+    /// The present state.
+    pub fn state(&self, model: &Model) -> State {
+        let [q, v, z, _] = model.layout.split(&self.y).map(<[f64]>::to_vec);
+        State { t: self.t, q, v, z }
+    }
+
+    /// How often an event has occurred.
+    pub fn occurred(&self, run: &Run, index: usize) -> usize {
+        let earlier = self.earlier.get(index).copied().unwrap_or_default();
+        earlier + run.events[index].states.t.len()
+    }
+
+    /// Pauses at the end of a part of the run.
+    pub fn pause(&mut self, run: &Run) {
+        self.earlier = (0..run.events.len()).map(|index| self.occurred(run, index)).list();
+        (self.continued, self.checked) = (self.last, true);
+    }
+
+    /// Notes that the caller has changed the mechanism or the state during a pause.
+    pub fn resume_changed(&mut self) {
+        self.checked = false;
     }
 }
 
@@ -103,12 +137,14 @@ pub(super) fn begin_phase<'a>(
     options: &Options,
     run: &mut Run,
 ) -> Result<Begun<'a>, Box<Failure>> {
-    let first = run.phases.is_empty();
+    let first = !std::mem::replace(&mut at.begun, true);
     let check =
         if first { StartCheck::of_run(options) } else { StartCheck::of_continuation(options) };
     let check = if project_velocities { check.of_positions() } else { check };
     let [q, v, z, _] = model.layout.split(&at.y);
-    check.check(model, at.t, [q, v, z])?;
+    if !std::mem::take(&mut at.checked) {
+        check.check(model, at.t, [q, v, z])?;
+    }
     let schedule = Schedule::new(model, (at.t, options.t_end))?;
     let workspace = workspace_at((model, cache), at.t, [q, v, z]);
     let mut ode = MotionOde::new(model, options, workspace);
@@ -172,12 +208,12 @@ impl<'a> PhaseSteps<'a> {
     fn new(
         ode: MotionOde<'a>,
         events: Option<EventList<'a>>,
-        at: &Progress,
+        at: &mut Progress,
         options: &Options,
         schedule: Schedule,
     ) -> Result<Self, Box<Failure>> {
-        let model = ode.model;
-        let stepper = MotionStepper::new(ode, options, schedule, at.t, &at.y)
+        let (model, continued) = (ode.model, at.continued.take());
+        let stepper = MotionStepper::new(ode, (options, continued), schedule, at.t, &at.y)
             .map_err(|cause| Failure::of_integrator(model, cause, at.t, &at.y))?;
         let start = (at.t, at.y.clone());
         let (ranges, t_end, fired) = (Ranges::of(model), options.t_end, Vec::new());
@@ -250,6 +286,7 @@ impl<'a> PhaseSteps<'a> {
     pub fn end(mut self, at: &mut Progress, run: &mut Run) {
         run.statistics.add(self.stepper.statistics(), self.stepper.factorisations());
         run.choice = self.stepper.choice();
+        at.last = Some(self.stepper.continued());
         run.passed.append(&mut self.stepper.passed);
         at.t = self.stepper.t();
         at.y.copy_from_slice(self.stepper.y());

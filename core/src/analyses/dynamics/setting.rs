@@ -24,6 +24,14 @@ impl Setting {
         Self { parameters, released, modes: Vec::new() }
     }
 
+    /// Gives a parameter another value.
+    pub(super) fn put(&mut self, name: String, value: f64) {
+        match self.parameters.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, old)) => *old = value,
+            None => self.parameters.push((name, value)),
+        }
+    }
+
     /// Whether the phase uses the given model unchanged.
     pub fn is_plain(&self) -> bool {
         *self == Self::default()

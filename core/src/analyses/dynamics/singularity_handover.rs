@@ -344,6 +344,10 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for SingularityHandover<'a> {
         self.current().t()
     }
 
+    fn next_size(&self) -> Option<f64> {
+        self.method.get().next_size()
+    }
+
     fn t_end(&self) -> f64 {
         self.t_end
     }

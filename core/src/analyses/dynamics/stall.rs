@@ -6,7 +6,7 @@ use crate::math::Listed;
 use crate::model::Model;
 
 /// Counts changes of mode that occur at one time.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Stall {
     t: f64,
     count: usize,

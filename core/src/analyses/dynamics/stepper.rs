@@ -55,7 +55,7 @@ impl<'a> Stepper<'a> {
         y.resize(model.layout.n_y(), 0.0);
         let outcome = ode.begin_phase(t, &mut y, false, true);
         outcome.map_err(|breakdown| Failure::at_state(model, t, &start.q, breakdown))?;
-        let inner = MotionStepper::new(ode, options, schedule, t, &y)
+        let inner = MotionStepper::new(ode, (options, None), schedule, t, &y)
             .map_err(|cause| Failure::of_integrator(model, cause, t, &y))?;
         let check = StartCheck::of_continuation(options);
         let projects = matches!(options.stabilization, Stabilization::Projection(_));

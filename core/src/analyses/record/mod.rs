@@ -23,7 +23,7 @@ mod start_state;
 
 pub use analysis::{Analysis, EventActions, Observer, Subject};
 pub use fact::{effort_unit, Fact};
-pub use motion::missing;
+pub use motion::{missing, with_start};
 pub use numbers::{parts, NumberList};
 pub use outcome::{ErrorClass, Outcome};
 pub use result::{rate_unit, Driven, NamedNumber, NumberTable, Record, Unfinished, Variable};

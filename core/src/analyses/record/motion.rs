@@ -40,7 +40,8 @@ impl Analysis for Options {
             return Err(vec![problem].into());
         }
         let Observer { look, acting, .. } = observer;
-        let options = with_start(self, start, acting.as_ref());
+        let acts = acting.as_ref().map_or(&[][..], |acting| acting.events);
+        let options = with_start(self, &start.released, acts);
         let options = options.as_ref().unwrap_or(self);
         let prepared = subject.prepared;
         let outcome = match acting {
@@ -64,19 +65,15 @@ impl Analysis for Options {
 }
 
 /// The options with the drivers that were released before, and with the events that act; None without any.
-fn with_start(
-    options: &Options,
-    start: &StartState,
-    acting: Option<&EventActions<'_>>,
-) -> Option<Options> {
-    if start.released.is_empty() && acting.is_none() {
+pub fn with_start(options: &Options, released: &[String], acts: &[String]) -> Option<Options> {
+    if released.is_empty() && acts.is_empty() {
         return None;
     }
     let mut options = options.clone();
-    let before = start.released.iter().filter(|name| !options.release.contains(name));
+    let before = released.iter().filter(|name| !options.release.contains(name));
     options.release = before.chain(&options.release).cloned().list();
     for event in &mut options.events {
-        event.acts = acting.is_some_and(|acting| acting.events.contains(&event.name));
+        event.acts = acts.contains(&event.name);
     }
     Some(options)
 }

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from kempe import _core
 from kempe.base.arguments import explained
 from kempe.model.model import Model, compiled_model
+from kempe.results.matrices.symbolic import Symbolic, symbolic
 from kempe.results.matrices.writing import named
 
 if TYPE_CHECKING:
@@ -90,6 +91,14 @@ class Equations:
     def latex(self) -> str:
         """Displayed formulas for amsmath."""
         return f"% {self.name} ({self.type})\n{self._aligned('align*')}\n"
+
+    def to_sympy(self) -> Symbolic:
+        """The equations as matrices of SymPy, in symbols such as ``crank.angle``.
+
+        Raises:
+            ModelError: SymPy is not installed.
+        """
+        return symbolic(self.expressions)
 
     def _aligned(self, environment: str) -> str:
         told = self.symbols

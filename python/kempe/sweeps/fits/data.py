@@ -146,6 +146,11 @@ def _table(table: Any) -> dict[str, Any]:
     raise ModelError(f"table: {type(table).__name__} is not a table", hint=hint)
 
 
+def headers(table: Any) -> dict[str, str]:
+    """The headers of a table by their names without units."""
+    return {_split(header)[0]: header for header in _table(table)}
+
+
 def _column(given: Mapping[str, Any], header: str, what: str) -> tuple[Floats, str]:
     """The values of a column in SI units and rad, and the unit; empty if it has none."""
     names = [header] if header in given else [name for name in given if _split(name)[0] == header]
@@ -173,7 +178,8 @@ def _column(given: Mapping[str, Any], header: str, what: str) -> tuple[Floats, s
 
 def _split(header: str) -> tuple[str, str]:
     match = _HEADER.fullmatch(header)
-    return (match[1], match[2]) if match else (header.strip(), "")
+    # behind a comma, kempe writes remarks on a column
+    return (match[1], match[2].partition(",")[0].rstrip()) if match else (header.strip(), "")
 
 
 def _csv(path: Path) -> Mapping[str, list[float]]:

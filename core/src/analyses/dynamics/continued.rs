@@ -1,0 +1,10 @@
+//! The steps of a run that has paused.
+
+/// How the steps of a phase continue those of the phase before, after a pause.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Continued {
+    /// The size of the next trial step, if the error control has chosen one.
+    pub size: Option<f64>,
+    /// Whether the automatic choice of the method is the implicit one.
+    pub implicit: bool,
+}
