@@ -118,7 +118,6 @@ if TYPE_CHECKING:
     from kempe.base.display_units import Units as Units
     from kempe.base.display_units import units as units
     from kempe.case import Case as Case
-    from kempe.case import load as load
     from kempe.draw.animate import animate as animate
     from kempe.draw.player import player as player
     from kempe.draw.scene import scene as scene
@@ -132,6 +131,7 @@ if TYPE_CHECKING:
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
     from kempe.lab_report import write_report as write_report
+    from kempe.loading import load as load
     from kempe.model.doubts import ModelWarning as ModelWarning
     from kempe.model.functions import Function as Function
     from kempe.model.functions import FunctionWarning as FunctionWarning
@@ -249,7 +249,7 @@ _HOME = {
     "kinematics": "analyses.kinematics",
     "limits": "analyses.limits",
     "reachable": "analyses.reachable",
-    "load": "case",
+    "load": "loading",
     "load_solution": "results.archive",
     "modes": "analyses.modes",
     "mobility": "analyses.mobility",

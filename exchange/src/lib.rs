@@ -1,0 +1,82 @@
+//! Files of other tools: a text in; a case of kempe, and a list of what was not read, out.
+//!
+//! ```
+//! let read = kempe_exchange::read("Assembly\n", kempe_exchange::Format::Asmt);
+//! assert!(read.unread.is_empty());
+//! assert!(read.case.unwrap().contains("\"kempe\": 1"));
+//! ```
+//!
+//! The crate does not depend on the core: a case is a text in kempe's own format, and the core checks it as any other.
+#![forbid(unsafe_code)]
+
+mod asmt;
+mod draft;
+mod formula;
+mod space;
+mod unread;
+
+pub use unread::Unread;
+
+/// The largest text that is read, in bytes.
+pub const LARGEST: usize = 100_000_000;
+
+/// A format that is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Assemblies of OndselSolver and FreeCAD.
+    Asmt,
+}
+
+/// All formats with their names, which are also the endings of their files.
+pub const FORMATS: [(&str, Format); 1] = [("asmt", Format::Asmt)];
+
+impl Format {
+    /// The format of this name or ending.
+    pub fn named(name: &str) -> Option<Self> {
+        let found = FORMATS.iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
+        found.map(|(_, format)| *format)
+    }
+
+    /// The format whose files begin like this text.
+    pub fn of(text: &str) -> Option<Self> {
+        let mut lines = text.lines().take(3).map(str::trim_end);
+        lines.any(|line| line == "Assembly").then_some(Self::Asmt)
+    }
+}
+
+/// What a text contains.
+#[derive(Debug, Default)]
+pub struct Read {
+    /// The case as JSON in kempe's format; `None` if the text is not of this format.
+    pub case: Option<String>,
+    /// What the case lacks, in the order of the file.
+    pub unread: Vec<Unread>,
+    /// Results that the file carries, by the name of their quantity in kempe; the first are the times `t`.
+    pub results: Vec<(String, Vec<f64>)>,
+}
+
+impl Read {
+    fn nothing(unread: unread::UnreadList) -> Self {
+        Self { unread: unread.sorted(), ..Self::default() }
+    }
+}
+
+/// Reads a text of a format. What cannot be read is in the list, never lost.
+pub fn read(text: &str, format: Format) -> Read {
+    if text.len() > LARGEST {
+        let mut unread = unread::UnreadList::default();
+        unread.lost(
+            0,
+            format!(
+                "the file has {} MB; at most {} are read",
+                text.len() / 1_000_000,
+                LARGEST / 1_000_000
+            ),
+        );
+        return Read::nothing(unread);
+    }
+    let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
+    match format {
+        Format::Asmt => asmt::read(text),
+    }
+}
