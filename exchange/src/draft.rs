@@ -1,4 +1,4 @@
-//! A case while it is put together: a tree of values as in a file of kempe.
+//! A case while it is assembled: a tree of values as in a file of kempe.
 
 use serde_json::{json, Map, Value};
 use std::collections::{HashMap, HashSet};
@@ -6,7 +6,7 @@ use std::collections::{HashMap, HashSet};
 /// A table of a case.
 pub(crate) type Table = Map<String, Value>;
 
-/// A case while it is put together.
+/// A case while it is assembled.
 #[derive(Debug, Default)]
 pub(crate) struct Draft {
     pub(crate) title: String,
@@ -24,6 +24,13 @@ pub(crate) struct Draft {
 }
 
 impl Draft {
+    /// A case with a title and a ground, which accepts redundant constraints.
+    pub(crate) fn titled(title: &str) -> Self {
+        let mut draft = Self { title: title.into(), redundant: true, ..Self::default() };
+        draft.bodies.insert("ground".into(), json!({}));
+        draft
+    }
+
     /// A name for an element or a body, as near to the given one as kempe allows, and different from all others.
     pub(crate) fn name(&mut self, wanted: &str) -> String {
         self.names.take(wanted)

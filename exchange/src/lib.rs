@@ -1,4 +1,4 @@
-//! Files of other tools: a text in; a case of kempe, and a list of what was not read, out.
+//! Files of other tools: a text becomes a case of kempe and a list of the parts that the case lacks.
 //!
 //! ```
 //! let read = kempe_exchange::read("Assembly\n", kempe_exchange::Format::Asmt);
@@ -12,6 +12,7 @@
 mod asmt;
 mod draft;
 mod formula;
+mod linkage;
 mod space;
 mod unread;
 
@@ -25,10 +26,12 @@ pub const LARGEST: usize = 100_000_000;
 pub enum Format {
     /// Assemblies of OndselSolver and FreeCAD.
     Asmt,
+    /// Mechanisms of Linkage.
+    Linkage,
 }
 
 /// All formats with their names, which are also the endings of their files.
-pub const FORMATS: [(&str, Format); 1] = [("asmt", Format::Asmt)];
+pub const FORMATS: [(&str, Format); 2] = [("asmt", Format::Asmt), ("linkage2", Format::Linkage)];
 
 impl Format {
     /// The format of this name or ending.
@@ -39,6 +42,9 @@ impl Format {
 
     /// The format whose files begin like this text.
     pub fn of(text: &str) -> Option<Self> {
+        if text.trim_start().starts_with("<linkage2") {
+            return Some(Self::Linkage);
+        }
         let mut lines = text.lines().take(3).map(str::trim_end);
         lines.any(|line| line == "Assembly").then_some(Self::Asmt)
     }
@@ -78,5 +84,6 @@ pub fn read(text: &str, format: Format) -> Read {
     let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
     match format {
         Format::Asmt => asmt::read(text),
+        Format::Linkage => linkage::read(text),
     }
 }

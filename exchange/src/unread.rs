@@ -22,7 +22,7 @@ impl fmt::Display for Unread {
     }
 }
 
-/// The list of what was not read.
+/// The list of unread parts.
 #[derive(Debug, Default)]
 pub(crate) struct UnreadList(Vec<Unread>);
 

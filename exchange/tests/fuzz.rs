@@ -5,7 +5,10 @@
 use kempe_exchange::{read, Format, Read, FORMATS};
 use std::time::Instant;
 
-const SAMPLES: [(Format, &str); 1] = [(Format::Asmt, include_str!("samples/slider_crank.asmt"))];
+const SAMPLES: [(Format, &str); 2] = [
+    (Format::Asmt, include_str!("samples/slider_crank.asmt")),
+    (Format::Linkage, include_str!("samples/quick_return.linkage2")),
+];
 
 /// Random numbers: a linear congruential generator with the constants of Knuth's MMIX.
 struct Random(u64);

@@ -226,10 +226,7 @@ fn name_unused(tree: &Node<'_>, unread: &mut UnreadList) {
         match known {
             Some(_) if node.inside.is_empty() => {}
             Some((name, what)) => unread.left(node.line, format!("{name}: {what} are left out")),
-            None => unread.lost(
-                node.line,
-                format!("'{}' has no meaning here that kempe knows", short(node.text)),
-            ),
+            None => unread.lost(node.line, format!("'{}' has no meaning here", short(node.text))),
         }
     }
 }
