@@ -87,6 +87,19 @@ impl Draft {
     }
 }
 
+/// Least length of a body for its mass, m.
+const SHORTEST: f64 = 0.01;
+
+/// Mass, inertia and centre of a rod around the middle of some points, which reaches the farthest of them.
+pub(crate) fn rod(points: &[[f64; 2]], density: f64) -> Value {
+    let count = points.len().max(1) as f64;
+    let middle = [0, 1].map(|k| points.iter().map(|at| at[k]).sum::<f64>() / count);
+    let reach = |at: &[f64; 2]| (at[0] - middle[0]).hypot(at[1] - middle[1]);
+    let length = 2.0 * points.iter().map(reach).fold(SHORTEST / 2.0, f64::max);
+    let mass = density * length;
+    json!({ "mass": mass, "inertia": mass * length * length / 12.0, "center": middle })
+}
+
 /// The text of a title: one line without control characters.
 fn shown(title: &str) -> String {
     title.chars().filter(|c| !hidden(*c)).take(150).collect()

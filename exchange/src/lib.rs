@@ -11,6 +11,7 @@
 
 mod asmt;
 mod draft;
+pub mod dxf;
 mod formula;
 mod linkage;
 mod space;
@@ -28,10 +29,13 @@ pub enum Format {
     Asmt,
     /// Mechanisms of Linkage.
     Linkage,
+    /// Drawings.
+    Dxf,
 }
 
 /// All formats with their names, which are also the endings of their files.
-pub const FORMATS: [(&str, Format); 2] = [("asmt", Format::Asmt), ("linkage2", Format::Linkage)];
+pub const FORMATS: [(&str, Format); 3] =
+    [("asmt", Format::Asmt), ("linkage2", Format::Linkage), ("dxf", Format::Dxf)];
 
 impl Format {
     /// The format of this name or ending.
@@ -44,6 +48,10 @@ impl Format {
     pub fn of(text: &str) -> Option<Self> {
         if text.trim_start().starts_with("<linkage2") {
             return Some(Self::Linkage);
+        }
+        let mut pairs = text.lines().map(str::trim);
+        if pairs.next() == Some("0") && pairs.next() == Some("SECTION") {
+            return Some(Self::Dxf);
         }
         let mut lines = text.lines().take(3).map(str::trim_end);
         lines.any(|line| line == "Assembly").then_some(Self::Asmt)
@@ -85,5 +93,6 @@ pub fn read(text: &str, format: Format) -> Read {
     match format {
         Format::Asmt => asmt::read(text),
         Format::Linkage => linkage::read(text),
+        Format::Dxf => dxf::read(text),
     }
 }

@@ -53,6 +53,7 @@ Show:
     plot                    figures
     animate, player         videos and pages with the motion
     write_report            a report with data, equations, figures, as HTML or PDF
+    write_dxf               plates of the links, positions and paths as a drawing
     units                   units of tables, figures and CSV files
 
 All errors are KempeErrors. ``help`` describes each name, for example ``help(kp.Model)``.
@@ -119,6 +120,7 @@ if TYPE_CHECKING:
     from kempe.base.display_units import units as units
     from kempe.case import Case as Case
     from kempe.draw.animate import animate as animate
+    from kempe.draw.dxf import write_dxf as write_dxf
     from kempe.draw.player import player as player
     from kempe.draw.scene import scene as scene
     from kempe.draw.still import still as still
@@ -265,6 +267,7 @@ _HOME = {
     "sweep": "sweeps",
     "tolerances": "sweeps",
     "units": "base.display_units",
+    "write_dxf": "draw.dxf",
     "write_report": "lab_report",
 }
 

@@ -16,3 +16,11 @@ def exchange_read(
     format: str,  # noqa: A002
 ) -> tuple[str | None, list[tuple[int, str, bool]], list[tuple[str, _F]]]:
     """The case as JSON, what it lacks, and the results that the text carries."""
+
+def exchange_dxf(
+    unit: float,
+    lines: list[tuple[str, bool, list[tuple[float, float]], list[float]]],
+    circles: list[tuple[str, tuple[float, float], float]],
+    texts: list[tuple[str, tuple[float, float], float, str]],
+) -> str:
+    """A drawing as the text of a DXF file; lengths in metres, ``unit`` that of the drawing."""

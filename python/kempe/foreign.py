@@ -6,6 +6,7 @@ import codecs
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from kempe import _core
 from kempe.base import files
@@ -79,6 +80,16 @@ def read(path: Path | str, form: str, partial: bool) -> Foreign:
         raise _refused(path, lost, case is not None)
     texts = tuple(_told(line, what) for line, what, _ in unread)
     return Foreign(case, texts, dict(recorded))
+
+
+def dxf_text(unit: float, *parts: Any) -> str:
+    """The text of a DXF drawing.
+
+    Args:
+        unit: its unit, m.
+        parts: lines, circles and texts.
+    """
+    return _core.exchange_dxf(unit, *parts)
 
 
 def _told(line: int, what: str) -> str:

@@ -89,6 +89,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "slopes_at": lambda: _core.slopes_at(
         MODEL, "{}", "{}", '{"type": "dynamics", "t_end": 1}', [], TIMES, [], [], ROW[0, :0]
     ),
+    "exchange_dxf": lambda: _core.exchange_dxf(1.0, [], [], []),
     "exchange_formats": _core.exchange_formats,
     "exchange_format": lambda: _core.exchange_format("Assembly"),
     "exchange_read": lambda: _core.exchange_read("Assembly", "asmt"),

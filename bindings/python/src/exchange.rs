@@ -3,6 +3,7 @@
 use crate::attended::attended;
 use crate::errors::{Failure, Kind};
 use crate::guard::guard;
+use kempe_exchange::dxf::{self, Sheet};
 use kempe_exchange::{Format, FORMATS};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
@@ -47,5 +48,23 @@ pub fn exchange_read(
         let unread = read.unread.into_iter().map(|part| (part.line, part.what, part.harmless));
         let column = |(name, row): (String, Vec<f64>)| (name, row.into_pyarray(py).unbind());
         Ok((read.case, unread.collect(), read.results.into_iter().map(column).collect()))
+    })
+}
+
+/// A drawing as the text of a DXF file. Lengths are in metres, and `unit` is the size of a unit of the drawing.
+#[pyfunction]
+#[pyo3(signature = (unit, lines, circles, texts))]
+pub fn exchange_dxf(
+    py: Python<'_>,
+    unit: f64,
+    lines: Vec<dxf::Line>,
+    circles: Vec<(String, [f64; 2], f64)>,
+    texts: Vec<(String, [f64; 2], f64, String)>,
+) -> PyResult<String> {
+    guard("exchange_dxf", || {
+        dxf::write(&Sheet { unit, lines, circles, texts }).ok_or_else(|| {
+            let message = format!("a DXF file has no unit of {unit} m");
+            Failure::new(Kind::Model, message).hint("mm, cm, m, in or ft").raise(py)
+        })
     })
 }

@@ -100,6 +100,7 @@ fn add_drawing_and_sweeps(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(exchange::exchange_formats, module)?)?;
     module.add_function(wrap_pyfunction!(exchange::exchange_format, module)?)?;
     module.add_function(wrap_pyfunction!(exchange::exchange_read, module)?)?;
+    module.add_function(wrap_pyfunction!(exchange::exchange_dxf, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::scene, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::display, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::view_around, module)?)?;

@@ -16,7 +16,7 @@
 
 mod document;
 
-use crate::draft::Draft;
+use crate::draft::{rod, Draft};
 use crate::unread::UnreadList;
 use crate::Read;
 use document::{Connector, Document, Link};
@@ -60,22 +60,6 @@ pub(crate) fn read(text: &str) -> Read {
 
 /// Mass of a link per length, kg/m. The files have no masses; positions and rates do not depend on them.
 const DENSITY: f64 = 1.0;
-/// Least length of a link for its mass, m.
-const SHORTEST: f64 = 0.01;
-
-/// A link as a rod around the middle of its connectors that reaches the farthest of them.
-fn rod(ends: &[&Connector]) -> serde_json::Value {
-    let first = ends[0].at;
-    let middle = [0, 1]
-        .map(|k| ends.iter().map(|end| end.at[k] - first[k]).sum::<f64>() / ends.len() as f64);
-    let reach = |end: &&Connector| {
-        (end.at[0] - first[0] - middle[0]).hypot(end.at[1] - first[1] - middle[1])
-    };
-    let length = 2.0 * ends.iter().map(reach).fold(SHORTEST / 2.0, f64::max);
-    let mass = DENSITY * length;
-    json!({ "mass": mass, "inertia": mass * length * length / 12.0, "center": middle })
-}
-
 impl<'a> Mechanism<'a> {
     fn new(document: &'a Document, unread: UnreadList) -> Self {
         let draft = Draft::titled("Linkage");
@@ -135,7 +119,9 @@ impl<'a> Mechanism<'a> {
                 continue;
             }
             let name = self.draft.name(&link.name);
-            self.draft.bodies.insert(name.clone(), rod(&ends));
+            let points: Vec<[f64; 2]> =
+                ends.iter().map(|end| [end.at[0] - first.at[0], end.at[1] - first.at[1]]).collect();
+            self.draft.bodies.insert(name.clone(), rod(&points, DENSITY));
             for (coordinate, value) in [("x", first.at[0]), ("y", first.at[1]), ("angle", 0.0)] {
                 self.draft.guess.insert(format!("{name}.{coordinate}"), json!(value));
             }

@@ -18,6 +18,8 @@ EXAMPLES = """Examples:
   kempe convert engine.asmt engine.toml --partial
 
   kempe convert crank.txt crank.json --from asmt
+
+  kempe convert four_bar.toml plates.dxf
 """
 
 
@@ -44,7 +46,15 @@ def convert(  # noqa: PLR0917 - typer distinguishes options by their annotations
 
     if not force and (output.exists() or output.is_symlink()):
         raise FileError(f"{output} exists", name=str(output), hint="--force overwrites it")
-    unread = convert_file(file, output, form, to, partial=partial)
+    if (to or output.suffix.lower().removeprefix(".")) == "dxf":
+        from kempe.draw.dxf import write_dxf
+        from kempe.loading import load
+
+        case = load(file, partial=partial, form=form)
+        write_dxf(case.start(), output)
+        unread = case.unread
+    else:
+        unread = convert_file(file, output, form, to, partial=partial)
     console = answers()
     for line in unread:
         console.print(Text(f"left out: {line}"))
