@@ -9,6 +9,7 @@
 //! The crate does not depend on the core: a case is a text in kempe's own format, and the core checks it as any other.
 #![forbid(unsafe_code)]
 
+mod adm;
 mod asmt;
 mod draft;
 pub mod dxf;
@@ -31,11 +32,17 @@ pub enum Format {
     Linkage,
     /// Drawings.
     Dxf,
+    /// Models of the solver of MSC Adams.
+    Adm,
 }
 
 /// All formats with their names, which are also the endings of their files.
-pub const FORMATS: [(&str, Format); 3] =
-    [("asmt", Format::Asmt), ("linkage2", Format::Linkage), ("dxf", Format::Dxf)];
+pub const FORMATS: [(&str, Format); 4] = [
+    ("asmt", Format::Asmt),
+    ("linkage2", Format::Linkage),
+    ("dxf", Format::Dxf),
+    ("adm", Format::Adm),
+];
 
 impl Format {
     /// The format of this name or ending.
@@ -52,6 +59,9 @@ impl Format {
         let mut pairs = text.lines().map(str::trim);
         if pairs.next() == Some("0") && pairs.next() == Some("SECTION") {
             return Some(Self::Dxf);
+        }
+        if text.starts_with("ADAMS/View model name") {
+            return Some(Self::Adm);
         }
         let mut lines = text.lines().take(3).map(str::trim_end);
         lines.any(|line| line == "Assembly").then_some(Self::Asmt)
@@ -94,5 +104,6 @@ pub fn read(text: &str, format: Format) -> Read {
         Format::Asmt => asmt::read(text),
         Format::Linkage => linkage::read(text),
         Format::Dxf => dxf::read(text),
+        Format::Adm => adm::read(text),
     }
 }

@@ -5,10 +5,11 @@
 use kempe_exchange::{read, Format, Read, FORMATS};
 use std::time::Instant;
 
-const SAMPLES: [(Format, &str); 3] = [
+const SAMPLES: [(Format, &str); 4] = [
     (Format::Asmt, include_str!("samples/slider_crank.asmt")),
     (Format::Linkage, include_str!("samples/quick_return.linkage2")),
     (Format::Dxf, include_str!("samples/plates.dxf")),
+    (Format::Adm, include_str!("samples/pendulum.adm")),
 ];
 
 /// Random numbers: a linear congruential generator with the constants of Knuth's MMIX.
