@@ -85,19 +85,32 @@ impl Read {
     }
 }
 
+impl Format {
+    /// The largest model that is read, in bytes, and the part of a text that is the model.
+    fn model(self, text: &str) -> (usize, &str) {
+        match self {
+            Self::Asmt => {
+                // the results of an assembly may be much longer
+                (8_000_000, text.split("\nTimeSeries").next().unwrap_or(text))
+            }
+            Self::Adm => (4_000_000, text),
+            Self::Linkage | Self::Dxf => (16_000_000, text),
+        }
+    }
+}
+
 /// Reads a text of a format. What cannot be read is in the list, never lost.
 pub fn read(text: &str, format: Format) -> Read {
-    if text.len() > LARGEST {
-        let mut unread = unread::UnreadList::default();
-        unread.lost(
-            0,
-            format!(
-                "the file has {} MB; at most {} are read",
-                text.len() / 1_000_000,
-                LARGEST / 1_000_000
-            ),
-        );
-        return Read::nothing(unread);
+    let (largest, model) = format.model(text);
+    for (size, limit, what) in [(text.len(), LARGEST, "file"), (model.len(), largest, "model")] {
+        if size > limit {
+            let mut unread = unread::UnreadList::default();
+            let mega = |bytes: usize| bytes as f64 / 1e6;
+            let what =
+                format!("the {what} has {:.1} MB; at most {} are read", mega(size), mega(limit));
+            unread.lost(0, what);
+            return Read::nothing(unread);
+        }
     }
     let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
     match format {

@@ -122,10 +122,19 @@ impl Writer {
     fn assembly(&mut self, all: &[Statement]) {
         let parts: Vec<&Statement> =
             all.iter().filter(|statement| statement.kind == "PART").collect();
+        let by_id: HashMap<&str, &Statement> =
+            parts.iter().map(|part| (part.id.as_str(), *part)).collect();
+        let mut of_part = HashMap::<String, Vec<&Statement>>::new();
+        let mut by_marker = HashMap::<&str, &Statement>::new();
+        for marker in all.iter().filter(|one| one.kind == "MARKER") {
+            by_marker.insert(&marker.id, marker);
+            of_part.entry(marker.reference("PART").unwrap_or_default()).or_default().push(marker);
+        }
+        let markers = |id: &str| of_part.get(id).cloned().unwrap_or_default();
         let ground = parts.iter().find(|part| part.is("GROUND")).map(|part| part.id.clone());
         for marker in all.iter().filter(|statement| statement.kind == "MARKER") {
             let part = marker.reference("PART").unwrap_or_default();
-            let within = match parts.iter().find(|one| one.id == part) {
+            let within = match by_id.get(part.as_str()) {
                 Some(_) if Some(&part) == ground.as_ref() => String::new(),
                 Some(one) => format!("/{}", one.name),
                 None => {
@@ -141,13 +150,13 @@ impl Writer {
         self.put(0, 0, "Adams");
         self.put(0, 0, "Assembly");
         self.pair(0, 1, "Name", "Adams");
-        self.points(1, markers_of(all, ground.as_ref()));
+        self.points(1, &markers(ground.as_deref().unwrap_or_default()));
         self.put(0, 1, "Parts");
         for part in parts.iter().filter(|part| !part.is("GROUND")) {
             self.put(part.line, 2, "Part");
-            let found = self.part(part, all);
+            let found = self.part(part, &by_marker);
             self.told(part, found);
-            self.points(3, markers_of(all, Some(&part.id)));
+            self.points(3, &markers(&part.id));
         }
         self.put(0, 1, "ConstraintSets");
         self.put(0, 2, "Joints");
@@ -177,7 +186,7 @@ impl Writer {
         }
     }
 
-    fn points<'a>(&mut self, level: usize, markers: impl Iterator<Item = &'a Statement>) {
+    fn points(&mut self, level: usize, markers: &[&Statement]) {
         self.put(0, level, "RefPoints");
         for marker in markers {
             let Some(frame) = self.frame(marker, "QP") else { continue };
@@ -220,7 +229,11 @@ impl Writer {
         }
     }
 
-    fn part(&mut self, part: &Statement, all: &[Statement]) -> Result<(), String> {
+    fn part(
+        &mut self,
+        part: &Statement,
+        markers: &HashMap<&str, &Statement>,
+    ) -> Result<(), String> {
         self.pair(part.line, 3, "Name", &part.name);
         if let Some(frame) = self.frame(part, "QG") {
             self.place(part.line, 3, &frame);
@@ -232,8 +245,7 @@ impl Writer {
         }
         let Some(mass) = part.number("MASS")? else { return Ok(()) };
         let center = part.reference("CM");
-        let marker =
-            all.iter().find(|one| one.kind == "MARKER" && Some(&one.id) == center.as_ref());
+        let marker = center.as_deref().and_then(|id| markers.get(id).copied());
         if part.get("IM").is_some_and(|_| part.reference("IM") != center) {
             return Err(
                 "IM: moments of inertia in another frame than that of CM are not supported".into(),
@@ -366,12 +378,4 @@ impl Writer {
             );
         }
     }
-}
-
-/// The markers of a part.
-fn markers_of<'a>(
-    all: &'a [Statement],
-    id: Option<&'a String>,
-) -> impl Iterator<Item = &'a Statement> {
-    all.iter().filter(move |one| one.kind == "MARKER" && one.reference("PART").as_ref() == id)
 }
