@@ -175,6 +175,10 @@ impl Writer {
             let found = self.force(force);
             self.told(force, found);
         }
+        self.gravity(all);
+    }
+
+    fn gravity(&mut self, all: &[Statement]) {
         for gravity in all.iter().filter(|one| one.kind == "ACCGRAV") {
             let g = ["IGRAV", "JGRAV", "KGRAV"].map(|key| gravity.number(key));
             let [Ok(x), Ok(y), Ok(z)] = g else {
