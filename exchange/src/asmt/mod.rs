@@ -208,7 +208,13 @@ impl<'a> Assembly<'a> {
     /// The motions determine the movement if they leave no freedom.
     fn analysis(&mut self) {
         let driven = self.rows >= 3 * (self.parts.all.len() - 1) && !self.efforts.is_empty();
-        let kind = if driven { "inverse_dynamics" } else { "dynamics" };
+        // without masses there are no forces to compute
+        let massless = self.parts.all[1..].iter().all(|part| !part.has_mass());
+        let kind = match (driven, massless) {
+            (true, false) => "inverse_dynamics",
+            (true, true) => "kinematics",
+            (false, _) => "dynamics",
+        };
         let entry = self.draft.analyses.entry("motion").or_insert_with(|| json!({ "t_end": 1.0 }));
         entry.as_object_mut().expect("an analysis is a table").insert("type".into(), json!(kind));
     }

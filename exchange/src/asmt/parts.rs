@@ -247,6 +247,11 @@ impl Part {
         self.angle = y.atan2(x);
     }
 
+    /// Whether the file gives the part a mass.
+    pub(super) const fn has_mass(&self) -> bool {
+        self.mass > 0.0
+    }
+
     /// The angular velocity at the start.
     pub(super) const fn omega(&self) -> Vector {
         self.omega
