@@ -9,6 +9,8 @@ from benchmarks.validation.conservation import CLOSED, KEPT, STEPS, Conserved
 from benchmarks.validation.convergence import PROBLEMS, TOLERANCE, Convergence
 from benchmarks.validation.results import Results
 
+#: The comparison with assembly files, which are not part of the repository.
+ASSEMBLIES = ROOT / "benchmarks" / "validation" / "assemblies.md"
 PAGE = ROOT / "docs" / "validation.md"
 #: The figure of each problem, from docs/.
 FIGURES = {p.name: f"images/convergence_{p.name.replace('-', '_')}.png" for p in PROBLEMS}
@@ -57,7 +59,7 @@ def page(results: Results) -> str:
     """The whole page."""
     numbers = map(section, results.benchmarks)
     observed = (convergence(results.convergence), conservation(results.conservation))
-    return "\n".join([HEAD, *numbers, *observed])
+    return "\n".join([HEAD, *numbers, *observed, ASSEMBLIES.read_text("utf-8")])
 
 
 def section(benchmark: Benchmark) -> str:

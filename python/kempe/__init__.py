@@ -55,6 +55,7 @@ Show:
     plot                    figures
     animate, player         videos and pages with the motion
     write_report            a report with data, equations, figures, as HTML or PDF
+    write_dxf               plates of the links, positions and paths as a drawing
     units                   units of tables, figures and CSV files
 
 All errors are KempeErrors. ``help`` describes each name, for example ``help(kp.Model)``.
@@ -120,8 +121,8 @@ if TYPE_CHECKING:
     from kempe.base.display_units import Units as Units
     from kempe.base.display_units import units as units
     from kempe.case import Case as Case
-    from kempe.case import load as load
     from kempe.draw.animate import animate as animate
+    from kempe.draw.dxf import write_dxf as write_dxf
     from kempe.draw.player import player as player
     from kempe.draw.scene import scene as scene
     from kempe.draw.still import still as still
@@ -134,6 +135,7 @@ if TYPE_CHECKING:
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
     from kempe.lab_report import write_report as write_report
+    from kempe.loading import load as load
     from kempe.model.doubts import ModelWarning as ModelWarning
     from kempe.model.functions import Function as Function
     from kempe.model.functions import FunctionWarning as FunctionWarning
@@ -259,7 +261,7 @@ _HOME = {
     "kinematics": "analyses.kinematics",
     "limits": "analyses.limits",
     "reachable": "analyses.reachable",
-    "load": "case",
+    "load": "loading",
     "load_solution": "results.archive",
     "modes": "analyses.modes",
     "mobility": "analyses.mobility",
@@ -275,6 +277,7 @@ _HOME = {
     "sweep": "sweeps",
     "tolerances": "sweeps",
     "units": "base.display_units",
+    "write_dxf": "draw.dxf",
     "write_report": "lab_report",
 }
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kempe._core_exchange import *  # noqa: F403
 from kempe._core_sweeps import *  # noqa: F403
 
 _F = NDArray[np.float64]

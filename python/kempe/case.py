@@ -7,6 +7,7 @@ import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from kempe import _core
@@ -25,7 +26,8 @@ from kempe.analyses.record import Progress, Record, run_analysis
 from kempe.analyses.sequence import of_type, read_entries
 from kempe.analyses.start import Start, read_start
 from kempe.base import files
-from kempe.base.arguments import explain_methods, explained
+from kempe.base.arguments import explain_methods
+from kempe.base.arrays import Floats
 from kempe.base.names import few, one_of
 from kempe.errors import FileError, KempeError, ModelError
 from kempe.model.compiled import CompiledModel
@@ -67,10 +69,15 @@ class Case:
 
     Attributes:
         model: the mechanism.
+        unread: what ``load`` left out of a file of another tool, each with its line.
+        recorded: results that such a file carries, by the name of their quantity; first ``t``.
 
     Raises:
         FileError, ModelError: the case is invalid; the error contains all ``problems``.
     """
+
+    unread: tuple[str, ...] = ()
+    recorded: Mapping[str, Floats] = MappingProxyType({})
 
     def __init__(
         self,
@@ -282,15 +289,15 @@ class Case:
         guess = {key: value for key, value in self._start.guess.items() if key not in coordinates}
         return self._with(start=Start({**self._start.set, **coordinates}, guess))
 
-    def save(self, path: Path | str) -> None:
-        """Write the complete case as TOML or JSON, by the suffix of the name.
+    def save(self, path: Path | str, *, form: str | None = None) -> None:
+        """Write the complete case as TOML or JSON: as ``form``, or by the suffix of the name.
 
         Files of tables are not copied; the case refers to them relative to its own folder.
 
         Raises:
             FileError: the file cannot be written; an existing file is then unchanged.
         """
-        form = _format(path, "write")
+        form = form or format_of(path, "write")
         tree = self.model.beside(self.tree(), Path(path).parent)
         core = _core.Case(json.dumps(tree, allow_nan=False), "json", None)
         files.write_text(path, core.write(form))
@@ -336,27 +343,10 @@ def _no_number(text: str) -> float:
     raise ModelError(f"{text}: a motion has no such number", hint="read a quantity of the solution")
 
 
-@explained
-def load(path: Path | str, *, parameters: Mapping[str, Number] | None = None) -> Case:
-    """Read a case from a file, TOML or JSON by the suffix of its name.
-
-    Args:
-        path: the file.
-        parameters: other values for some of its parameters.
-
-    Raises:
-        FileError: the file cannot be read, or is not a case; the error contains all ``problems``.
-        ModelError: the model is invalid; the error contains all ``problems``, each with line and
-            column.
-    """
-    form = _format(path, "read")
-    return parsed(files.read_text(path), form, str(path), parameters, Path(path).parent)
-
-
 def parsed(
     text: str,
     form: str,
-    origin: str,
+    origin: str | None,
     parameters: Mapping[str, Number] | None = None,
     folder: Path | None = None,
 ) -> Case:
@@ -365,7 +355,7 @@ def parsed(
     Args:
         text: the text of a file.
         form: "toml" or "json".
-        origin: name of the file, for messages.
+        origin: name of the file, for messages; None if the text is not that of a file.
         parameters: other values for some of its parameters.
         folder: the folder of the files of tables; by default the current folder.
 
@@ -386,7 +376,12 @@ def schema() -> str:
     return _core.schema()
 
 
-def _format(path: Path | str, doing: str) -> str:
+def format_of(path: Path | str, doing: str) -> str:
+    """The format of a case, by the ending of its name.
+
+    Raises:
+        FileError: the ending is another one.
+    """
     where = files.checked_path(path, doing)
     suffix = where.suffix.lower()
     if suffix in FORMATS:

@@ -13,6 +13,7 @@ CODE = [
     for name in (
         "core",
         "drawing",
+        "exchange",
         "bindings",
         "python",
         "tests",

@@ -9,7 +9,7 @@ from house.places import PACKAGE
 
 Graph = dict[str, set[str]]
 #: The compiled modules, and the version, which the root defines at once.
-EXTENSIONS = {"kempe._core", "kempe._core_sweeps", "kempe.__version__"}
+EXTENSIONS = {"kempe._core", "kempe._core_exchange", "kempe._core_sweeps", "kempe.__version__"}
 
 
 def modules() -> dict[str, str]:

@@ -96,6 +96,10 @@ CALLS: dict[str, Callable[[], object]] = {
     "slopes_at": lambda: _core.slopes_at(
         MODEL, "{}", "{}", '{"type": "dynamics", "t_end": 1}', [], TIMES, [], [], ROW[0, :0]
     ),
+    "exchange_dxf": lambda: _core.exchange_dxf(1.0, [], [], []),
+    "exchange_formats": _core.exchange_formats,
+    "exchange_format": lambda: _core.exchange_format("Assembly"),
+    "exchange_read": lambda: _core.exchange_read("Assembly", "asmt"),
     "formula_names": lambda: _core.formula_names("a + 2*b"),
     "formula_unit": lambda: _core.formula_unit("a + 2*b", ["a", "b"], ["m", "m"]),
     "formula_value": lambda: _core.formula_value("a + 2*b", ["a", "b"], [1.0, 2.0]),

@@ -10,10 +10,11 @@ from house.python_imports import Graph, folder, graph, loops, modules
 ROWS = (
     ("_core", "_processor", "_upwards", "_version", "errors"),
     ("base",),
-    ("model",),
+    ("foreign", "model"),
     ("results",),
     ("analyses",),
     ("case",),
+    ("loading",),
     ("design", "draw", "report", "stepping", "studio", "sweeps", "templates"),
     ("plot",),
     ("lab_report", "notebook"),

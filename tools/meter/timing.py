@@ -24,7 +24,15 @@ CHANGED = (
 )
 LINE = "let _changed = std::hint::black_box(17);"
 _BODY = re.compile(r"^ *(?:pub(?:\(\w+\))? )?(?:const )?fn [^;{]*\{\n", re.MULTILINE)
-_SOURCES = ("Cargo.toml", "Cargo.lock", "README.md", "core", "drawing", "bindings/python")
+_SOURCES = (
+    "Cargo.toml",
+    "Cargo.lock",
+    "README.md",
+    "core",
+    "drawing",
+    "exchange",
+    "bindings/python",
+)
 _PROCESSES = 9
 # ru_maxrss contains the memory of the program that started the process, unlike VmHWM
 _IMPORT = """

@@ -146,7 +146,14 @@ PAGES = {
     "draw": ApiPage(
         "Drawings, players and reports",
         "Drawings, videos, pages that play a motion, and reports.",
-        ("kempe.animate", "kempe.player", "kempe.still", "kempe.scene", "kempe.write_report"),
+        (
+            "kempe.animate",
+            "kempe.player",
+            "kempe.still",
+            "kempe.scene",
+            "kempe.write_report",
+            "kempe.write_dxf",
+        ),
     ),
     "errors": ApiPage(
         "Errors and warnings",

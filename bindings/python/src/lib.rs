@@ -14,6 +14,7 @@ mod convert;
 mod drawing;
 mod dynamics;
 mod errors;
+mod exchange;
 mod formulas;
 mod functions;
 mod guard;
@@ -97,6 +98,10 @@ fn add_drawing_and_sweeps(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(column_formulas::formula_names, module)?)?;
     module.add_function(wrap_pyfunction!(column_formulas::formula_unit, module)?)?;
     module.add_function(wrap_pyfunction!(column_formulas::formula_value, module)?)?;
+    module.add_function(wrap_pyfunction!(exchange::exchange_formats, module)?)?;
+    module.add_function(wrap_pyfunction!(exchange::exchange_format, module)?)?;
+    module.add_function(wrap_pyfunction!(exchange::exchange_read, module)?)?;
+    module.add_function(wrap_pyfunction!(exchange::exchange_dxf, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::scene, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::display, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::view_around, module)?)?;

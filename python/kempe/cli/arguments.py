@@ -177,7 +177,8 @@ def read_case(file: Path, changes: Changes, kind: str | None = None) -> Case:
         changes: the changes.
         kind: type of the analyses to which the case is reduced; all if None.
     """
-    from kempe.case import load, parsed
+    from kempe.case import parsed
+    from kempe.loading import load
 
     pairs = dict(map(setting, changes.settings or []))
     start = {name: value for name, value in pairs.items() if "." in name}

@@ -26,8 +26,8 @@ def save_changed(
         path: the new file.
     """
     from kempe.base import files
-    from kempe.case import load
     from kempe.errors import KempeError
+    from kempe.loading import load
     from kempe.sweeps.problems.rewritten import rewritten
 
     changed, text = dict(values), None

@@ -8,7 +8,8 @@ from typing import Any
 
 from kempe import _core
 from kempe.base import files
-from kempe.case import load
+from kempe.case import FORMATS
+from kempe.loading import load
 from kempe.model.lookup_tables import TableFile
 
 
@@ -16,13 +17,16 @@ def case_text(path: Path) -> str:
     """The text of a case as TOML.
 
     A TOML file is returned unchanged, with its comments. A case in JSON, or with tables in other
-    files, is converted; the text then contains the points of these tables.
+    files, is converted; the text then contains the points of these tables. So is a file of another
+    tool.
 
     Raises:
         FileError: a file cannot be read, or is not a case.
         ModelError: the case is faulty.
     """
-    load(path)  # a faulty case is refused with its lines
+    case = load(path)  # a faulty case is refused with its lines
+    if path.suffix.lower() not in FORMATS:
+        return case.text()
     text, form = files.read_text(path), path.suffix.lower().lstrip(".")
     tree: dict[str, Any] = json.loads(_core.Case(text, form, str(path)).tree())
     outside = {n: table for n, table in tree.get("tables", {}).items() if "file" in table}
