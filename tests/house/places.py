@@ -13,6 +13,7 @@ CODE = [
     for name in (
         "core",
         "drawing",
+        "synthesis",
         "bindings",
         "python",
         "tests",

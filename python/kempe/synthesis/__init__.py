@@ -1,0 +1,17 @@
+"""Linkages for a task: poses of the coupler, points of a path, pairs of angles.
+
+    motion                  linkages whose coupler takes poses
+    dyads                   all dyads of five poses
+
+The results are a sequence of candidates, best first, each with a case for all analyses.
+"""
+
+from kempe.base.arguments import explain_functions
+from kempe.synthesis.candidate import Candidate
+from kempe.synthesis.dyads import dyads
+from kempe.synthesis.found import Found
+from kempe.synthesis.motion import motion
+
+__all__ = ["Candidate", "Found", "dyads", "motion"]
+
+explain_functions(globals())

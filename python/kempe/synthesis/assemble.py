@@ -1,0 +1,234 @@
+"""From pairs of dyads to candidates."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+import numpy as np
+
+from kempe.base.arrays import Floats
+from kempe.errors import ModelError
+from kempe.model.values import refuse
+from kempe.synthesis import tasks
+from kempe.synthesis.candidate import TYPES, Candidate, masses_of, unwrapped
+from kempe.synthesis.defects import KINDS, Flags, Judged, judged
+from kempe.synthesis.dyads import Dyads
+from kempe.synthesis.found import Found
+from kempe.synthesis.tasks import Complexes
+
+#: Candidates of a task with free choices: those kept, and pairs of dyads that are judged.
+KEPT, _PAIRS = 100, 20_000
+T = TypeVar("T", "Bars", "Judged")
+_DIRECTIONS = {"ccw": 1, "cw": -1, None: 0}
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """What a user asks of all candidates, besides the task.
+
+    Attributes:
+        defects: "exclude" or "tell".
+        limits: ``transmission_angle``, rad; ``grashof``, True or a type; ``within``, the least and
+            largest x and y of the ground pivots.
+        way: 1 or -1 if the crank must turn counter-clockwise or clockwise, otherwise 0.
+        masses: masses by body, kg.
+    """
+
+    defects: str = "exclude"
+    limits: Mapping[str, Any] = field(default_factory=dict)
+    way: int = 0
+    masses: Mapping[str, float] = field(default_factory=dict)
+
+    @classmethod
+    def read(
+        cls,
+        defects: str,
+        transmission_angle: Any,
+        grashof: bool | str,
+        within: Any,
+        direction: str | None,
+        masses: Mapping[str, Any] | None,
+    ) -> Wishes:
+        """The wishes from arguments, checked."""
+        if defects not in ("exclude", "tell"):
+            refuse("defects", f"{defects!r}; must be 'exclude' or 'tell'")
+        if grashof not in (True, False, *TYPES):
+            refuse("grashof", f"{grashof!r}; must be True or {', '.join(TYPES)}")
+        limits: dict[str, Any] = {"grashof": grashof or None}
+        if transmission_angle is not None:
+            limits["transmission_angle"] = tasks.value(transmission_angle, "transmission_angle")
+        if within is not None:
+            limits["within"] = tasks.rows(within, "within", 2, "[(x_min, x_max), (y_min, y_max)]")
+            if limits["within"].shape != (2, 2):
+                refuse("within", "must be [(x_min, x_max), (y_min, y_max)]")
+        if direction not in _DIRECTIONS:
+            refuse("direction", f"{direction!r}; must be 'ccw', 'cw' or None")
+        return cls(defects, limits, _DIRECTIONS[direction], masses_of(masses))
+
+
+def pairs_of(first: Dyads, second: Dyads | None, seed: int) -> Floats:
+    """Pairs of places in two lists of dyads, (2, n); in one list if there is no second."""
+    if second is None:
+        places = np.array(np.triu_indices(len(first), 1))
+    else:
+        places = np.indices((len(first), len(second))).reshape(2, -1)
+    if places.shape[1] > _PAIRS:
+        random = np.random.default_rng(seed)
+        places = places[:, random.choice(places.shape[1], _PAIRS, replace=False)]
+    return places
+
+
+def moved(at: Complexes, places: Complexes, angles: Floats) -> Complexes:
+    """Points of the moving plane at all poses, (n, n_poses), from those at the first pose."""
+    turn = np.exp(1j * (angles - angles[0]))
+    return np.asarray(places + (at[:, None] - places[0]) * turn)
+
+
+@dataclass(frozen=True)
+class Bars:
+    """Four-bars at the positions of a task.
+
+    Attributes:
+        o, d: ground pivots, (n,).
+        a, b, p: pins and coupler point, (n, n_positions).
+        frame: the angle of the moving frame at the first position, (n,).
+        error: (n,).
+    """
+
+    o: Complexes
+    a: Complexes
+    b: Complexes
+    d: Complexes
+    p: Complexes
+    frame: Floats
+    error: Floats
+
+    def reversed(self) -> Bars:
+        """The rocker as the crank."""
+        return Bars(self.d, self.b, self.a, self.o, self.p, self.frame, self.error)
+
+    def taken(self, places: Any) -> Bars:
+        """Some of them."""
+        return Bars(*(getattr(self, name)[places] for name in self.__dataclass_fields__))
+
+    def judged(self, way: int) -> Judged:
+        """Their defects with the first link as the crank."""
+        return judged(self.o, self.a, self.b, self.d, way)
+
+    def shapely(self) -> Bars:
+        """Those without links or grounds of no length."""
+        sides = np.stack([self.a[:, 0] - self.o, self.b[:, 0] - self.a[:, 0]])
+        sides = abs(np.stack([*sides, self.d - self.b[:, 0], self.d - self.o]))
+        kept = sides.min(axis=0) > tasks.SAME * sides.max(axis=0)
+        return self.taken(kept & np.isfinite(sides).all(axis=0))
+
+
+def collected(
+    bars: Bars, wishes: Wishes, *, either: bool, complete: bool, task: Complexes, poses: Any = None
+) -> Found:
+    """The result of a task: all solutions without defects, or the best of many samples.
+
+    Args:
+        bars: the four-bars.
+        wishes: what the user asks.
+        either: whether the rocker may be the crank, with the better of both taken.
+        complete: whether these are all solutions.
+        task: places of the point.
+        poses: the poses, if there are any.
+    """
+    bars = bars.shapely()
+    found = bars.judged(wishes.way)
+    if either:
+        back = bars.reversed()
+        other = back.judged(wishes.way)
+        better = _worth(other) > _worth(found)
+        bars, found = _either(bars, back, better), _either(found, other, better)
+    wrong = _wrong(bars, found, wishes)
+    bad = np.any(list(wrong.values()), axis=0)
+    excluded = {kind: int(of.sum()) for kind, of in wrong.items() if of.any()}
+    size = found.lengths.max(axis=1)
+    exact = np.where(bars.error < 1e-9 * size, 0.0, bars.error)
+    turning = np.round(found.least, 2)
+    order = np.lexsort((size, -np.round(found.here, 2), -turning, exact, found.count))
+    if wishes.defects == "exclude":
+        order = order[~bad[order]]
+    else:
+        excluded = {}
+    kept = order if complete else order[:KEPT]
+    made = [_candidate(bars, found, k, wishes, wrong) for k in kept.tolist()]
+    return Found(made, complete, excluded, task, poses)
+
+
+def _either(one: T, other: T, better: Flags) -> T:
+    """The second of two where it is better."""
+
+    def chosen(name: str) -> Any:
+        x, y = getattr(one, name), getattr(other, name)
+        across = name == "places"  # defects are the first axis there
+        return np.where(better if across or x.ndim == 1 else better[:, None], y, x)
+
+    return type(one)(*(chosen(name) for name in one.__dataclass_fields__))  # type: ignore[attr-defined]
+
+
+def _worth(of: Judged) -> Floats:
+    """Fewer defects first, then a crank that turns fully, then the transmission angle."""
+    return np.asarray(-10.0 * of.count + of.turns + 0.1 * of.least + 0.01 * of.here)
+
+
+def _wrong(bars: Bars, of: Judged, wishes: Wishes) -> dict[str, Flags]:
+    """Which candidates have each defect, or are beyond each limit."""
+    wrong = {kind: places >= 0 for kind, places in zip(KINDS, of.places, strict=True)}
+    least, asked, within = (
+        wishes.limits.get(name) for name in ("transmission_angle", "grashof", "within")
+    )
+    if least is not None:
+        wrong["transmission angle"] = of.least < least
+    if asked is not None:
+        shortest = of.lengths.argmin(axis=1)
+        fits = True if asked is True else shortest == TYPES.index(asked)
+        wrong["grashof"] = ~(of.grashof & fits)
+    if within is not None:
+        low, high = within.T
+        outside = [
+            (at.real < low[0]) | (at.real > high[0]) | (at.imag < low[1]) | (at.imag > high[1])
+            for at in (bars.o, bars.d)
+        ]
+        wrong["pivots"] = outside[0] | outside[1]
+    return wrong
+
+
+def _candidate(
+    bars: Bars, of: Judged, k: int, wishes: Wishes, wrong: Mapping[str, Flags]
+) -> Candidate:
+    places = dict(zip(KINDS, of.places[:, k].tolist(), strict=True))
+    texts = [
+        f"{kind}: at position {places[kind] + 1}" if kind in places else f"{kind}: beyond the limit"
+        for kind, flags in wrong.items()
+        if flags[k]
+    ]
+    angles = np.angle(bars.a[k] - bars.o[k])
+    pins = (bars.o[k], bars.a[k, 0], bars.b[k, 0], bars.d[k], bars.p[k, 0])
+    turns = bool(of.turns[k])
+    return Candidate(
+        tuple(complex(at) for at in pins),
+        float(bars.frame[k]),
+        float(bars.error[k]),
+        float(of.least[k]),
+        bool(of.grashof[k]),
+        turns,
+        tuple(texts),
+        unwrapped(angles, bool(of.forward[k]), turns),
+        wishes.masses,
+    )
+
+
+def families(family: str) -> None:
+    """Refuse an unknown family.
+
+    Raises:
+        ModelError: it is unknown.
+    """
+    if family != "four_bar":
+        raise ModelError(f"family: {family!r}; must be 'four_bar'")
