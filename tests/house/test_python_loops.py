@@ -15,6 +15,7 @@ ROWS = (
     ("analyses",),
     ("case",),
     ("design", "draw", "report", "studio", "sweeps", "templates"),
+    ("synthesis",),
     ("plot",),
     ("lab_report", "notebook"),
     ("cli",),

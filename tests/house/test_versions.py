@@ -23,7 +23,9 @@ def test_there_is_one_version() -> None:
 def test_lock_file_and_crates_have_the_version() -> None:
     text = (ROOT / "Cargo.lock").read_text(encoding="utf-8")
     locked = dict(re.findall(r'^name = "(kempe.*)"\nversion = "(.+)"$', text, re.M))
-    assert locked == dict.fromkeys(["kempe", "kempe-drawing", "kempe-python", "kempe-synthesis"], kempe.__version__)
+    assert locked == dict.fromkeys(
+        ["kempe", "kempe-drawing", "kempe-python", "kempe-synthesis"], kempe.__version__
+    )
     for crate in ("core", "drawing", "synthesis", "bindings/python"):
         manifest = (ROOT / crate / "Cargo.toml").read_text(encoding="utf-8")
         assert "\nversion.workspace = true\n" in manifest, crate

@@ -134,11 +134,13 @@ def traced(one: kp.synthesis.Candidate, places: Complexes, angles: Floats) -> st
     unit, turn = abs(d - o), np.angle(d - o)
     bar = FourBar(abs(a - o) / unit, abs(b - a) / unit, abs(b - d) / unit, 1.0, 0j)
     moved = [places + (x - places[0]) * np.exp(1j * (angles - angles[0])) for x in (a, b)]
-    at = np.column_stack([
-        np.angle(moved[0] - o) - turn,
-        np.angle(moved[1] - moved[0]) - turn,
-        np.angle(moved[1] - d) - turn,
-    ])
+    at = np.column_stack(
+        [
+            np.angle(moved[0] - o) - turn,
+            np.angle(moved[1] - moved[0]) - turn,
+            np.angle(moved[1] - d) - turn,
+        ]
+    )
     path = bar.circuit(at[0])
     apart = np.linalg.norm(np.exp(1j * at)[:, None] - np.exp(1j * path)[None], axis=2)
     if (apart.min(axis=1) > 0.03).any():
@@ -232,7 +234,7 @@ def test_wrong_tasks_are_explained(poses: list, options: dict, message: str) -> 
 
 
 def test_impossible_tasks_are_explained() -> None:
-    with pytest.raises(kp.ModelError, match="no four-bar takes all 5.*leave out or move a pose"):
+    with pytest.raises(kp.ModelError, match=r"no four-bar takes all 5.*leave out or move a pose"):
         none = [(0.5, -1, 2.4), (4, -3, 1), (4, -4, 2.3), (1, 0.5, -1.9), (3.5, -2, 1.5)]
         kp.synthesis.motion(none)
     places, angles = KNOWN.poses(CRANK)
@@ -255,3 +257,19 @@ def test_more_than_five_poses_are_approximated() -> None:
         noise = 1e-3 * (random.normal(size=n) + 1j * random.normal(size=n))
         near = kp.synthesis.motion(rows(places + noise, angles))
         assert near[0].error < 4.0 * np.abs(noise).max()
+
+
+def test_the_figures_have_a_panel_for_each_candidate_and_the_curves_pass_the_pins() -> None:
+    places, angles = KNOWN.poses(CRANK)
+    found = kp.synthesis.motion(rows(places, angles), defects="tell")
+    assert len(kp.plot.synthesis(found).axes) == 6
+    curves = kp.synthesis.burmester(rows(places, angles)[:4])
+    at = np.column_stack([curves.circle_points, curves.centre_points])
+    size = np.abs(at).max(axis=1)
+    for kind, (x, y) in zip(("circle", "centre"), (at.T[:2], at.T[2:]), strict=True):
+        assert (np.abs(curves.level(kind, x, y)) < 1e-9 * (1.0 + size**3)).all()
+    for one in kp.synthesis.dyads(rows(places, angles)):
+        for kind, pin in zip(("circle", "centre"), one, strict=True):
+            level = curves.level(kind, np.array(pin.real), np.array(pin.imag))
+            assert abs(level) < 1e-9 * (1.0 + abs(pin) ** 3)
+    assert len(kp.plot.burmester(curves).lines) > 3

@@ -30,6 +30,7 @@ from kempe.plot.slopes import slopes
 from kempe.plot.sweep_pages import sweep_pages
 from kempe.plot.sweep_scatter import sweep_scatter
 from kempe.plot.sweeps import sweep_contributions, sweep_histogram, sweep_lines, sweep_map
+from kempe.plot.synthesis import burmester, synthesis
 from kempe.plot.time_axis import transient
 from kempe.plot.torques import torques
 from kempe.plot.transmission import transmission_angle
@@ -39,6 +40,7 @@ __all__ = [
     "acceleration_polygon",
     "accelerations",
     "all_reactions",
+    "burmester",
     "configuration",
     "coupler_curve",
     "draw_free_body",
@@ -70,6 +72,7 @@ __all__ = [
     "sweep_map",
     "sweep_pages",
     "sweep_scatter",
+    "synthesis",
     "torque_speed",
     "torques",
     "transient",

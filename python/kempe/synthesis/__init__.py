@@ -2,16 +2,20 @@
 
     motion                  linkages whose coupler takes poses
     dyads                   all dyads of five poses
+    limits                  the limits of candidates that all of them accept
+    burmester               the circle-point and centre-point curves of four poses
 
 The results are a sequence of candidates, best first, each with a case for all analyses.
 """
 
 from kempe.base.arguments import explain_functions
+from kempe.synthesis.assemble import limits
+from kempe.synthesis.burmester import Burmester, burmester
 from kempe.synthesis.candidate import Candidate
 from kempe.synthesis.dyads import dyads
 from kempe.synthesis.found import Found
 from kempe.synthesis.motion import motion
 
-__all__ = ["Candidate", "Found", "dyads", "motion"]
+__all__ = ["Burmester", "Candidate", "Found", "burmester", "dyads", "limits", "motion"]
 
 explain_functions(globals())

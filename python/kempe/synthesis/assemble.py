@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
+from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.errors import ModelError
-from kempe.model.values import refuse
+from kempe.model.values import Number, refuse
 from kempe.synthesis import tasks
 from kempe.synthesis.candidate import TYPES, Candidate, masses_of, unwrapped
 from kempe.synthesis.defects import KINDS, Flags, Judged, judged
@@ -25,50 +27,72 @@ _DIRECTIONS = {"ccw": 1, "cw": -1, None: 0}
 
 
 @dataclass(frozen=True)
-class Wishes:
-    """What a user asks of all candidates, besides the task.
+class Limits:
+    """Limits of all candidates, besides the task.
 
     Attributes:
-        defects: "exclude" or "tell".
-        limits: ``transmission_angle``, rad; ``grashof``, True or a type; ``within``, the least and
-            largest x and y of the ground pivots.
+        tell: whether candidates with defects are kept.
+        transmission_angle: least over the full turn, rad; or None.
+        grashof: whether Grashof's condition must hold, or the type; or None.
+        within: the least and largest x and y of the ground pivots, (2, 2), m; or None.
         way: 1 or -1 if the crank must turn counter-clockwise or clockwise, otherwise 0.
         masses: masses by body, kg.
     """
 
-    defects: str = "exclude"
-    limits: Mapping[str, Any] = field(default_factory=dict)
+    tell: bool = False
+    transmission_angle: float | None = None
+    grashof: bool | str | None = None
+    within: Floats | None = None
     way: int = 0
     masses: Mapping[str, float] = field(default_factory=dict)
 
-    @classmethod
-    def read(
-        cls,
-        defects: str,
-        transmission_angle: Any,
-        grashof: bool | str,
-        within: Any,
-        direction: str | None,
-        masses: Mapping[str, Any] | None,
-    ) -> Wishes:
-        """The wishes from arguments, checked."""
-        if defects not in ("exclude", "tell"):
-            refuse("defects", f"{defects!r}; must be 'exclude' or 'tell'")
-        if grashof not in (True, False, *TYPES):
-            refuse("grashof", f"{grashof!r}; must be True or {', '.join(TYPES)}")
-        limits: dict[str, Any] = {"grashof": grashof or None}
-        if transmission_angle is not None:
-            limits["transmission_angle"] = tasks.value(transmission_angle, "transmission_angle")
-        if within is not None:
-            limits["within"] = tasks.rows(within, "within", 2, "[(x_min, x_max), (y_min, y_max)]")
-            if limits["within"].shape != (2, 2):
-                refuse("within", "must be [(x_min, x_max), (y_min, y_max)]")
-        if direction not in _DIRECTIONS:
-            refuse("direction", f"{direction!r}; must be 'ccw', 'cw' or None")
-        return cls(defects, limits, _DIRECTIONS[direction], masses_of(masses))
+
+@explained
+def limits(
+    *,
+    defects: str = "exclude",
+    transmission_angle: Number | None = None,
+    grashof: bool | str = False,
+    within: Sequence[Sequence[Number]] | None = None,
+    direction: str | None = None,
+    masses: Mapping[str, Number] | None = None,
+) -> Limits:
+    """The limits that ``motion``, ``path`` and ``function`` accept as further arguments.
+
+    Args:
+        defects: "exclude" leaves candidates with a defect out and counts them, "tell" keeps them.
+        transmission_angle: least over the full turn, rad, or "40 deg"; no limit by default.
+        grashof: True if Grashof's condition must hold, or a type such as "crank-rocker".
+        within: limits of both ground pivots, ``[(x_min, x_max), (y_min, y_max)]``, m.
+        direction: "ccw" or "cw", in which the crank turns through the task; None for either.
+        masses: masses of ``crank``, ``coupler`` and ``rocker``, kg; by default 1 kg per metre of
+            their sides.
+
+    Raises:
+        ModelError: one of them is invalid.
+    """
+    if defects not in ("exclude", "tell"):
+        refuse("defects", f"{defects!r}; must be 'exclude' or 'tell'")
+    if grashof not in (True, False, *TYPES):
+        refuse("grashof", f"{grashof!r}; must be True or {', '.join(TYPES)}")
+    if direction not in _DIRECTIONS:
+        refuse("direction", f"{direction!r}; must be 'ccw', 'cw' or None")
+    least, box = transmission_angle, None
+    if within is not None:
+        box = tasks.rows(within, "within", 2, "[(x_min, x_max), (y_min, y_max)]")
+        if box.shape != (2, 2) or (box[:, 1] < box[:, 0]).any():
+            refuse("within", "must be [(x_min, x_max), (y_min, y_max)]")
+    return Limits(
+        defects == "tell",
+        None if least is None else tasks.value(least, "transmission_angle"),
+        grashof or None,
+        box,
+        _DIRECTIONS[direction],
+        masses_of(masses),
+    )
 
 
-def pairs_of(first: Dyads, second: Dyads | None, seed: int) -> Floats:
+def pairs_of(first: Dyads, second: Dyads | None, seed: int) -> NDArray[np.int64]:
     """Pairs of places in two lists of dyads, (2, n); in one list if there is no second."""
     if second is None:
         places = np.array(np.triu_indices(len(first), 1))
@@ -77,7 +101,7 @@ def pairs_of(first: Dyads, second: Dyads | None, seed: int) -> Floats:
     if places.shape[1] > _PAIRS:
         random = np.random.default_rng(seed)
         places = places[:, random.choice(places.shape[1], _PAIRS, replace=False)]
-    return places
+    return np.asarray(places, dtype=np.int64)
 
 
 def moved(at: Complexes, places: Complexes, angles: Floats) -> Complexes:
@@ -126,38 +150,38 @@ class Bars:
 
 
 def collected(
-    bars: Bars, wishes: Wishes, *, either: bool, complete: bool, task: Complexes, poses: Any = None
+    bars: Bars, limits: Limits, *, either: bool, complete: bool, task: Complexes, poses: Any = None
 ) -> Found:
     """The result of a task: all solutions without defects, or the best of many samples.
 
     Args:
         bars: the four-bars.
-        wishes: what the user asks.
+        limits: of the candidates.
         either: whether the rocker may be the crank, with the better of both taken.
         complete: whether these are all solutions.
         task: places of the point.
         poses: the poses, if there are any.
     """
     bars = bars.shapely()
-    found = bars.judged(wishes.way)
+    found = bars.judged(limits.way)
     if either:
         back = bars.reversed()
-        other = back.judged(wishes.way)
+        other = back.judged(limits.way)
         better = _worth(other) > _worth(found)
         bars, found = _either(bars, back, better), _either(found, other, better)
-    wrong = _wrong(bars, found, wishes)
+    wrong = _wrong(bars, found, limits)
     bad = np.any(list(wrong.values()), axis=0)
     excluded = {kind: int(of.sum()) for kind, of in wrong.items() if of.any()}
     size = found.lengths.max(axis=1)
     exact = np.where(bars.error < 1e-9 * size, 0.0, bars.error)
     turning = np.round(found.least, 2)
     order = np.lexsort((size, -np.round(found.here, 2), -turning, exact, found.count))
-    if wishes.defects == "exclude":
+    if not limits.tell:
         order = order[~bad[order]]
     else:
         excluded = {}
     kept = order if complete else order[:KEPT]
-    made = [_candidate(bars, found, k, wishes, wrong) for k in kept.tolist()]
+    made = [_candidate(bars, found, k, limits, wrong) for k in kept.tolist()]
     return Found(made, complete, excluded, task, poses)
 
 
@@ -169,7 +193,7 @@ def _either(one: T, other: T, better: Flags) -> T:
         across = name == "places"  # defects are the first axis there
         return np.where(better if across or x.ndim == 1 else better[:, None], y, x)
 
-    return type(one)(*(chosen(name) for name in one.__dataclass_fields__))  # type: ignore[attr-defined]
+    return type(one)(*(chosen(name) for name in one.__dataclass_fields__))
 
 
 def _worth(of: Judged) -> Floats:
@@ -177,12 +201,10 @@ def _worth(of: Judged) -> Floats:
     return np.asarray(-10.0 * of.count + of.turns + 0.1 * of.least + 0.01 * of.here)
 
 
-def _wrong(bars: Bars, of: Judged, wishes: Wishes) -> dict[str, Flags]:
+def _wrong(bars: Bars, of: Judged, limits: Limits) -> dict[str, Flags]:
     """Which candidates have each defect, or are beyond each limit."""
     wrong = {kind: places >= 0 for kind, places in zip(KINDS, of.places, strict=True)}
-    least, asked, within = (
-        wishes.limits.get(name) for name in ("transmission_angle", "grashof", "within")
-    )
+    least, asked, within = limits.transmission_angle, limits.grashof, limits.within
     if least is not None:
         wrong["transmission angle"] = of.least < least
     if asked is not None:
@@ -200,7 +222,7 @@ def _wrong(bars: Bars, of: Judged, wishes: Wishes) -> dict[str, Flags]:
 
 
 def _candidate(
-    bars: Bars, of: Judged, k: int, wishes: Wishes, wrong: Mapping[str, Flags]
+    bars: Bars, of: Judged, k: int, limits: Limits, wrong: Mapping[str, Flags]
 ) -> Candidate:
     places = dict(zip(KINDS, of.places[:, k].tolist(), strict=True))
     texts = [
@@ -220,7 +242,7 @@ def _candidate(
         turns,
         tuple(texts),
         unwrapped(angles, bool(of.forward[k]), turns),
-        wishes.masses,
+        limits.masses,
     )
 
 

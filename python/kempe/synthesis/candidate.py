@@ -99,7 +99,9 @@ class Candidate:
             points={name: _pair(at) for name, at in corners.items()},
             shapes=self._rods(list(corners.values())),
         )
-        m.bar("rocker", mass=self._mass("rocker", abs(b - d)), through={"D": _pair(d), "B": _pair(b)})
+        m.bar(
+            "rocker", mass=self._mass("rocker", abs(b - d)), through={"D": _pair(d), "B": _pair(b)}
+        )
         m.revolute("O", "ground.O", "crank.O")
         m.revolute("A", "crank.A", "coupler.A")
         m.revolute("B", "coupler.B", "rocker.B")
@@ -176,3 +178,24 @@ def unwrapped(angles: Floats, forward: bool, turns: bool) -> Floats:
         return fixed(np.unwrap(angles))
     steps = (sign * np.diff(angles)) % (2.0 * np.pi)
     return fixed(angles[0] + sign * np.concatenate([[0.0], np.cumsum(steps)]))
+
+
+def closed(one: Candidate, n: int) -> tuple[Floats, Floats]:
+    """Pins A, B and the point P, (3, n, 2), as the crank turns, from the first position on.
+
+    A crank that turns fully makes one turn, any other one moves through the positions of the task.
+
+    Returns:
+        The crank angles, (n,), and the places.
+    """
+    o, a, b, d, p = one.pins
+    first, rate, t_end = one.drive
+    crank = np.linspace(first, first + rate * t_end, n)
+    coupler, rocker = abs(b - a), abs(b - d)
+    pin = o + abs(a - o) * np.exp(1j * crank)
+    far = d - pin
+    cosine = (coupler**2 + abs(far) ** 2 - rocker**2) / (2.0 * coupler * abs(far))
+    side = np.sign((np.conj(d - a) * (b - a)).imag) or 1.0
+    turn = far / abs(far) * np.exp(1j * side * np.arccos(np.clip(cosine, -1.0, 1.0)))
+    places = np.stack([pin, pin + coupler * turn, pin + (p - a) / (b - a) * coupler * turn])
+    return fixed(crank), fixed(np.stack([places.real, places.imag], axis=2))

@@ -18,7 +18,7 @@ from kempe.synthesis.tasks import Complexes
 
 Flags = NDArray[np.bool_]
 
-#: The defects that exclude a candidate, in the order in which they are told.
+#: The defects that exclude a candidate, in the order in which a candidate lists them.
 KINDS = ("circuit", "branch", "dead point", "order")
 #: Sine of the transmission angle at a dead point, and relative margin of Grashof's condition.
 _DEAD, _MARGIN = 1e-6, 1e-9
@@ -56,12 +56,14 @@ def judged(o: Complexes, a: Complexes, b: Complexes, d: Complexes, way: int = 0)
     """The defects of four-bars.
 
     Args:
-        o, d: ground pivots of crank and rocker, (n,).
-        a, b: moving pins of crank and rocker at the positions, (n, n_positions).
+        o: ground pivots of the cranks, (n,).
+        a: moving pins of the cranks at the positions, (n, n_positions).
+        b: moving pins of the rockers at the positions, (n, n_positions).
+        d: ground pivots of the rockers, (n,).
         way: 1 if the crank must turn counter-clockwise, -1 for clockwise, 0 for either.
     """
-    lengths = np.stack([abs(a - o[:, None])[:, 0], abs(b - a)[:, 0], abs(b - d[:, None])[:, 0]])
-    lengths = np.column_stack([*lengths, abs(d - o)])
+    sides = abs(a[:, 0] - o), abs(b[:, 0] - a[:, 0]), abs(b[:, 0] - d), abs(d - o)
+    lengths: Floats = np.column_stack(sides).astype(np.float64)
     crank, coupler, rocker, ground = lengths.T
     ordered = np.sort(lengths, axis=1)
     room = ordered[:, 1] + ordered[:, 2] - ordered[:, 0] - ordered[:, 3]
@@ -81,12 +83,14 @@ def judged(o: Complexes, a: Complexes, b: Complexes, d: Complexes, way: int = 0)
     dead = np.abs(sine) < _DEAD
     # a linkage at the margin of Grashof's condition passes a dead point where it folds
     folding = (~double & (room > -margin))[:, None] & (at_o * at_o[:, :1] < 0.0)
-    places = np.stack([
-        _first(double[:, None] & (circuit != circuit[:, :1])),
-        _first((sine > 0.0) != (sine[:, :1] > 0.0)),
-        _first(dead | folding),
-        order,
-    ])
+    places = np.stack(
+        [
+            _first(double[:, None] & (circuit != circuit[:, :1])),
+            _first((sine > 0.0) != (sine[:, :1] > 0.0)),
+            _first(dead | folding),
+            order,
+        ]
+    )
     places[1] = np.where(places[0] >= 0, -1, places[1])
     places[3] = np.where((places[:2] >= 0).any(axis=0), -1, places[3])
     least = np.where(turning, _over_turn(lengths), 0.0)

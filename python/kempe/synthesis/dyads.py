@@ -96,7 +96,9 @@ class Conditions:
         pin = np.where(finite, w / one, np.where(slide, end_w, np.inf))
         pivot = np.where(finite, g / one, np.where(slide, np.inf, end_g))
         way = np.where(finite, np.nan, 1j * np.where(slide, g / np.abs(g), w / np.abs(w)))
-        scaled = [np.where(np.isfinite(x), self.origin + self.size * x, np.inf) for x in (pin, pivot)]
+        scaled = [
+            np.where(np.isfinite(x), self.origin + self.size * x, np.inf) for x in (pin, pivot)
+        ]
         kept = ~(finite & (np.abs(pin - pivot) < _SHORTEST * (1.0 + np.abs(pin))))
         return Dyads(scaled[0][kept], scaled[1][kept], way[kept], complete)
 
@@ -124,7 +126,9 @@ class Conditions:
         found: list[list[float]] = []
         for k, at in enumerate(places.tolist()):
             column = _COLUMN[kinds.split()[k % len(kinds.split())]]
-            line = self.line(column, at.real / abs(at), at.imag / abs(at), abs(at) * (-1) ** (k // 2))
+            line = self.line(
+                column, at.real / abs(at), at.imag / abs(at), abs(at) * (-1) ** (k // 2)
+            )
             found += self.solved([*more, line]) or []
         return self.dyads(found, complete=False)
 
@@ -144,9 +148,11 @@ class Conditions:
         x, y = at.real[:, None], at.imag[:, None]
         own, other = (1, 3) if kind == "pin" else (3, 1)
         sign = 1.0 if kind == "pin" else -1.0
-        matrix = np.stack(
-            [r[other] + x * r[5] + sign * y * r[6], r[other + 1] + y * r[5] - sign * x * r[6]], axis=2
+        columns = (
+            r[other] + x * r[5] + sign * y * r[6],
+            r[other + 1] + y * r[5] - sign * x * r[6],
         )
+        matrix = np.stack(columns, axis=2)
         right = -(r[0] + x * r[own] + y * r[own + 1])
         start = np.zeros(len(at), dtype=complex) if near is None else near[: len(at)]
         start = np.column_stack([start.real, start.imag])[:, :, None]
@@ -158,12 +164,16 @@ class Conditions:
         kept = np.isfinite(ends) & (abs(w - g) > _SHORTEST * (1.0 + abs(w)))
         nowhere = np.full(int(kept.sum()), np.nan + 0j)
         exact = len(rows) >= 2 and near is None
-        return Dyads(
-            self.origin + self.size * w[kept], self.origin + self.size * g[kept], nowhere, exact
-        )
+        pin, pivot = (self.origin + self.size * np.asarray(end[kept]) for end in (w, g))
+        return Dyads(np.asarray(pin), np.asarray(pivot), nowhere, exact)
 
     def all(
-        self, n: int, seed: int, *, more: Floats | None = None, pivot: complex | None = None,
+        self,
+        n: int,
+        seed: int,
+        *,
+        more: Floats | None = None,
+        pivot: complex | None = None,
         kinds: str = "pin pivot",
     ) -> Dyads:
         """All dyads if their conditions determine them, otherwise samples.
@@ -202,9 +212,9 @@ class Conditions:
 
     def _dependent(self) -> str:
         """Which pose follows from the others."""
+        rank = np.linalg.matrix_rank(self.rows, tol=1e-9)
         for k in range(len(self.rows), 0, -1):
-            others = np.delete(self.rows, k - 1, axis=0)
-            if np.linalg.matrix_rank(others, tol=1e-9) == np.linalg.matrix_rank(self.rows, tol=1e-9):
+            if np.linalg.matrix_rank(np.delete(self.rows, k - 1, axis=0), tol=1e-9) == rank:
                 return f"pose {k + 1} adds none to the others"
         return "a limit follows from the poses"
 

@@ -98,7 +98,8 @@ class Task:
             frames = near + (self.frames - near + np.pi) % (2.0 * np.pi) - np.pi
         if self.cranks is not None:
             cranks = self.cranks
-        return np.column_stack([at.real, at.imag, frames, cranks]).tolist()
+        rows: list[list[float]] = np.column_stack([at.real, at.imag, frames, cranks]).tolist()
+        return rows
 
     def start_of(self, bars: Bars, k: int) -> Start:
         """A four-bar at its positions."""

@@ -125,4 +125,3 @@ class Found(Sequence[Candidate]):
 def _read(candidate: Candidate, column: str) -> float:
     plan = plan_of(candidate.case, {"measures": [column], "analysis": None}, ())
     return plan.read(np.zeros(0))[0][0]
-

@@ -12,7 +12,7 @@ from kempe.base.arrays import Floats
 from kempe.errors import ModelError
 from kempe.model.values import Number
 from kempe.synthesis import assemble, tasks
-from kempe.synthesis.assemble import Bars, Wishes
+from kempe.synthesis.assemble import Bars
 from kempe.synthesis.dyads import Conditions, Dyads
 from kempe.synthesis.fit import Task, distinct
 from kempe.synthesis.found import Found
@@ -29,15 +29,10 @@ def motion(
     poses: Sequence[tasks.Pose],
     family: str = "four_bar",
     *,
-    defects: str = "exclude",
     pivots: Mapping[str, Sequence[Number]] | None = None,
-    within: Sequence[Sequence[Number]] | None = None,
-    transmission_angle: Number | None = None,
-    grashof: bool | str = False,
-    direction: str | None = None,
-    masses: Mapping[str, Number] | None = None,
     samples: int = SAMPLES,
     seed: int = 0,
+    **limits: Any,
 ) -> Found:
     """Linkages whose coupler takes poses, in the given order.
 
@@ -49,16 +44,11 @@ def motion(
     Args:
         poses: x and y of the moving frame, m, and its angle, rad; numbers or texts ("30 deg").
         family: "four_bar".
-        defects: "exclude" leaves candidates with a defect out and counts them, "tell" keeps them.
         pivots: fixed ground pivots, ``{"O": (x, y), "D": (x, y)}``, m; O belongs to the crank.
-        within: limits of both ground pivots, ``[(x_min, x_max), (y_min, y_max)]``, m.
-        transmission_angle: least over the full turn, rad, or "40 deg"; not asked by default.
-        grashof: True if Grashof's condition must hold, or a type such as "crank-rocker".
-        direction: "ccw" or "cw", in which the crank turns through the poses; None for either.
-        masses: masses of ``crank``, ``coupler`` and ``rocker``, kg; by default 1 kg per metre of
-            their sides.
         samples: number of dyads that are sampled if some of their choices are free.
         seed: of the samples.
+        limits: ``defects``, ``transmission_angle``, ``grashof``, ``within``, ``direction`` and
+            ``masses``; ``limits`` describes them.
 
     Raises:
         ModelError: no linkage takes the poses, two of them are the same, or a pivot contradicts
@@ -67,15 +57,14 @@ def motion(
     assemble.families(family)
     places, angles = tasks.poses(poses)
     fixed = tasks.pivots(pivots, "O D")
-    asked = (defects, transmission_angle, grashof, within, direction, masses)
-    wishes = Wishes.read(*asked)
+    asked = assemble.limits(**limits)
     if len(places) > 5:
         bars = _fitted(Task(places, angles, pivots=fixed), seed)
         return assemble.collected(
-            bars, wishes, either=len(fixed) != 1, complete=False, task=places, poses=poses
+            bars, asked, either=not fixed, complete=False, task=places, poses=poses
         )
     conditions = Conditions(places, angles)
-    either = not fixed or direction is None and len(fixed) == 2
+    either = not fixed
     free = conditions.all(samples, seed) if len(fixed) < 2 else None
     sides = [
         conditions.all(samples, seed + 1, pivot=fixed[name]) if name in fixed else free
@@ -89,7 +78,7 @@ def motion(
     bars = bars_of(pairs, chosen, places, angles)
     complete = first.complete and second.complete
     return assemble.collected(
-        bars, wishes, either=either, complete=complete, task=places, poses=poses
+        bars, asked, either=either, complete=complete, task=places, poses=poses
     )
 
 
