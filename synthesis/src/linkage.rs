@@ -61,7 +61,7 @@ impl Problem for Coupler {
 pub struct Pairs {
     /// Angles of crank and rocker at each position.
     pub targets: Vec<[f64; 2]>,
-    /// Factor of the closure.
+    /// Factor of the closure, in lengths of the rocker.
     pub closing: f64,
 }
 
@@ -79,11 +79,12 @@ impl Problem for Pairs {
         let (sine, cosine) = (linkage[3] + linkage[5] * crank).sin_cos();
         let (y, x) = position[0].sin_cos();
         let (across, along) = position[1].sin_cos();
-        let closing = number(self.closing);
+        // relative to c, since a = c = 0 closes at all angles
+        let closing = number(self.closing) / c;
         [
             closing * (a * cosine + b * along - number(1.0) - c * x),
             closing * (a * sine + b * across - c * y),
-            position[0] - linkage[4] - linkage[6] * rocker,
+            (position[0] - linkage[4]) / linkage[6] - rocker,
             S::zero(),
             S::zero(),
         ]

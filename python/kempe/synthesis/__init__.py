@@ -1,6 +1,7 @@
 """Linkages for a task: poses of the coupler, points of a path, pairs of angles.
 
     motion                  linkages whose coupler takes poses
+    function                four-bars that couple angles of crank and rocker
     dyads                   all dyads of five poses
     limits                  the limits of candidates that all of them accept
     burmester               the circle-point and centre-point curves of four poses
@@ -14,8 +15,9 @@ from kempe.synthesis.burmester import Burmester, burmester
 from kempe.synthesis.candidate import Candidate
 from kempe.synthesis.dyads import dyads
 from kempe.synthesis.found import Found
+from kempe.synthesis.function import function
 from kempe.synthesis.motion import motion
 
-__all__ = ["Burmester", "Candidate", "Found", "burmester", "dyads", "limits", "motion"]
+__all__ = ["Burmester", "Candidate", "Found", "burmester", "dyads", "function", "limits", "motion"]
 
 explain_functions(globals())
