@@ -83,8 +83,8 @@ def test_the_simulated_rocker_has_the_angles() -> None:
 
 def test_free_scales_make_six_and_seven_pairs_exact() -> None:
     """The search is not complete: it may end without a solution, with an error that says so."""
-    random, sources = np.random.default_rng(2), 0
-    for n in (6, 7, 7, 7):
+    random, sources = np.random.default_rng(4), 0
+    for n in (7, 7, 7, 6):
         bar, crank = drawn(random, n)
         x, y = 3.0 + 0.2 * crank, 7.0 - 4.0 * np.unwrap(bar.rocker(crank))
         pairs = list(zip(x, y, strict=True))
