@@ -36,6 +36,8 @@ impl Problem for Coupler {
         let (b, p) = (linkage[3], [linkage[4], linkage[5]]);
         let to = [a[0] + b * along - linkage[6], a[1] + b * across - linkage[7]];
         let length = (to[0] * to[0] + to[1] * to[1] + number(1e-300)).sqrt();
+        // O = D and b = 0 close at all positions, so that a short coupler must close better
+        let narrow = (number(1.0) + number(1.0) / (b * b)).sqrt();
         let of = |given: f64, factor: f64, value: S| {
             if given.is_nan() {
                 S::zero()
@@ -46,7 +48,7 @@ impl Problem for Coupler {
         [
             a[0] + p[0] * along - p[1] * across - number(x),
             a[1] + p[0] * across + p[1] * along - number(y),
-            number(closing) * (length - linkage[8]),
+            number(closing) * narrow * (length - linkage[8]),
             of(frame, turning, position[1] + linkage[10]),
             of(crank, closing, position[0] - linkage[9]),
         ]

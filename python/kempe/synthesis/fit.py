@@ -74,8 +74,10 @@ class Task:
             return 3 * n <= 9 + self.offset + n - fixed
         return n <= 9 - fixed
 
-    def fitted(self, start: Start) -> tuple[Start, float]:
-        """The least sum of squares near a start."""
+    def fitted(
+        self, start: Start, *, steps: int = _STEPS, closing: tuple[float, ...] | None = None
+    ) -> tuple[Start, float]:
+        """The least sum of squares near a start, for factors of the closure one by one."""
         linkage, positions = list(start.linkage), start.positions
         free = [True] * 9 + [self.cranks is not None and self.offset, self.frames is not None]
         for name, at in (self.pivots or {}).items():
@@ -85,8 +87,8 @@ class Task:
             free[place] = free[place + 1] = False
         targets = self.targets(linkage[10], positions)
         found = (linkage, positions.tolist(), 0.0)
-        for closing in (1.0,) if self.exact else (10.0, _CLOSING):
-            found = _core.fit_coupler(targets, (closing, 1.0), *found[:2], free, _STEPS)
+        for factor in closing or ((1.0,) if self.exact else (10.0, _CLOSING)):
+            found = _core.fit_coupler(targets, (factor, 1.0), *found[:2], free, steps)
         return Start(found[0], np.array(found[1])), found[2]
 
     def targets(self, between: float, positions: Floats) -> list[list[float]]:
