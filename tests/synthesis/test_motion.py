@@ -108,10 +108,10 @@ def test_a_four_bar_is_found_from_its_own_poses(n: int) -> None:
         if n == 5:
             pins = [{k: x / size for k, x in pins_of(one).items()} for one in found]
             assert min(found_in(bar, one) for one in pins) < 1e-6
-        _takes(best, size * places, angles)
+        takes(best, size * places, angles)
 
 
-def _takes(one: kp.synthesis.Candidate, places: Complexes, angles: Floats) -> None:
+def takes(one: kp.synthesis.Candidate, places: Complexes, angles: Floats) -> None:
     """A simulation of the candidate reaches all poses in order."""
     end = one.crank_angles
     rate = 1.0 if end[-1] > end[0] else -1.0

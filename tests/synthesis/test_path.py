@@ -82,14 +82,14 @@ def test_nine_points_of_a_four_bar_are_exact_where_the_search_succeeds() -> None
         assert min(abs(one.pins[0] - at) for at in [*pivots, *(o.pins[3] for o in found)]) < 1e-6
 
 
-def test_a_curve_of_sixty_points_is_found_again() -> None:
-    crank = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
+def test_a_curve_of_many_points_is_found_again() -> None:
+    crank = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
     places, _ = KNOWN.poses(crank)
     found = kp.synthesis.path(points(places))
     assert found[0].error < 1e-6
     timed = kp.synthesis.path(points(places), angles=crank)
     assert min(found_in(KNOWN, pins_of(one)) for one in timed) < 1e-6
-    noise = 1e-3 * np.random.default_rng(0).normal(size=(60, 2)) @ [1.0, 1.0j]
+    noise = 1e-3 * np.random.default_rng(0).normal(size=(24, 2)) @ [1.0, 1.0j]
     near = kp.synthesis.path(points(places + noise), angles=crank)
     assert near[0].error < 4.0 * np.abs(noise).max()
 

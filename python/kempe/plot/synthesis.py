@@ -61,22 +61,25 @@ def synthesis(found: Found, *, most: int = MOST) -> Figure:
 
 
 def _panel(axes: Axes, found: Found, one: Candidate, number: int) -> None:
-    from kempe.synthesis.candidate import closed
+    from kempe.synthesis import SliderCrank
 
     unit = scale("m", one.size)
-    _, places = closed(one, 200)
-    path = places[2] / unit.divisor
+    places = one.positions(200) / unit.divisor
+    path = places[2]
     axes.plot(*path.T, color=style.COLOURS[0], linewidth=1.0, zorder=2.5)
     _task(axes, found, unit.divisor)
     at = {name: np.array(point) / unit.divisor for name, point in one.points.items()}
     axes.add_patch(_plate([at["A"], at["B"], at["P"]]))
-    for first, second in ("OA", "DB"):
-        axes.plot(*np.array([at[first], at[second]]).T, zorder=3.0, **_LINK)
-    for name in "OD":
+    links = [at["O"], at["A"]], [at.get("D", at["B"]), at["B"]]
+    for link in links:
+        axes.plot(*np.array(link).T, zorder=3.0, **_LINK)
+    for name in at.keys() & set("OD"):
         axes.plot(*at[name], "^", color="#000000", markersize=6.0, zorder=3.1)
+    if isinstance(one, SliderCrank):
+        axes.plot(*places[1].T, color="#7F7F7F", linewidth=3.0, alpha=0.5, zorder=2.4)
     for name in "AB":
         axes.plot(*at[name], "o", markersize=4.0, **_PIN)
-    for name in "OABD":
+    for name in at.keys() - {"P"}:
         axes.annotate(
             name,
             tuple(at[name].tolist()),

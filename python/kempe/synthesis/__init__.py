@@ -21,11 +21,13 @@ from kempe.synthesis.found import Found
 from kempe.synthesis.function import function
 from kempe.synthesis.motion import motion
 from kempe.synthesis.path import path
+from kempe.synthesis.slider import SliderCrank
 
 __all__ = [
     "Burmester",
     "Candidate",
     "Found",
+    "SliderCrank",
     "burmester",
     "cognates",
     "dyads",

@@ -11,18 +11,21 @@ from numpy.typing import NDArray
 
 from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
-from kempe.errors import ModelError
 from kempe.model.values import Number, refuse
 from kempe.synthesis import tasks
 from kempe.synthesis.candidate import TYPES, Candidate, masses_of, unwrapped
-from kempe.synthesis.defects import KINDS, Flags, Judged, judged
+from kempe.synthesis.defects import KINDS, Flags, Judged, judged, judged_slides
 from kempe.synthesis.dyads import Dyads
 from kempe.synthesis.found import Found
+from kempe.synthesis.slider import SliderCrank
 from kempe.synthesis.tasks import Complexes
 
 #: Candidates of a task with free choices: those kept, and pairs of dyads that are judged.
 KEPT, _PAIRS = 100, 20_000
 T = TypeVar("T", "Bars", "Judged")
+B = TypeVar("B", bound="Bars")
+#: A larger transmission angle is no better, rad.
+_GOOD = np.pi / 4.0
 _DIRECTIONS = {"ccw": 1, "cw": -1, None: 0}
 
 
@@ -133,20 +136,43 @@ class Bars:
         """The rocker as the crank."""
         return Bars(self.d, self.b, self.a, self.o, self.p, self.frame, self.error)
 
-    def taken(self, places: Any) -> Bars:
+    def taken(self: B, places: Any) -> B:
         """Some of them."""
-        return Bars(*(getattr(self, name)[places] for name in self.__dataclass_fields__))
+        return type(self)(*(getattr(self, name)[places] for name in self.__dataclass_fields__))
 
     def judged(self, way: int) -> Judged:
         """Their defects with the first link as the crank."""
         return judged(self.o, self.a, self.b, self.d, way)
 
-    def shapely(self) -> Bars:
+    def shapely(self: B) -> B:
         """Those without links or grounds of no length."""
-        sides = np.stack([self.a[:, 0] - self.o, self.b[:, 0] - self.a[:, 0]])
-        sides = abs(np.stack([*sides, self.d - self.b[:, 0], self.d - self.o]))
+        sides = np.stack([abs(side) for side in self.sides()])
         kept = sides.min(axis=0) > tasks.SAME * sides.max(axis=0)
         return self.taken(kept & np.isfinite(sides).all(axis=0))
+
+    def sides(self) -> list[Complexes]:
+        """The links and the ground at the first position."""
+        a, b = self.a[:, 0], self.b[:, 0]
+        return [a - self.o, b - a, self.d - b, self.d - self.o]
+
+
+@dataclass(frozen=True)
+class Slides(Bars):
+    """Slider-cranks: B moves on a line through d.
+
+    Attributes:
+        slide: the direction of the line, (n,).
+    """
+
+    slide: Complexes
+
+    def judged(self, way: int) -> Judged:
+        """Their defects."""
+        return judged_slides(self.o, self.a, self.b, self.slide, way)
+
+    def sides(self) -> list[Complexes]:
+        """Crank and coupler at the first position."""
+        return super().sides()[:2]
 
 
 def collected(
@@ -174,8 +200,8 @@ def collected(
     excluded = {kind: int(of.sum()) for kind, of in wrong.items() if of.any()}
     size = found.lengths.max(axis=1)
     exact = np.where(bars.error < 1e-9 * size, 0.0, bars.error)
-    turning = np.round(found.least, 2)
-    order = np.lexsort((size, -np.round(found.here, 2), -turning, exact, found.count))
+    least, here = (-np.round(np.minimum(x, _GOOD), 2) for x in (found.least, found.here))
+    order = np.lexsort((size, here, least, exact, found.count))
     if not limits.tell:
         order = order[~bad[order]]
     else:
@@ -233,7 +259,9 @@ def _candidate(
     angles = np.angle(bars.a[k] - bars.o[k])
     pins = (bars.o[k], bars.a[k, 0], bars.b[k, 0], bars.d[k], bars.p[k, 0])
     turns = bool(of.turns[k])
-    return Candidate(
+    slide = (complex(bars.slide[k]),) if isinstance(bars, Slides) else ()
+    kind: Any = SliderCrank if slide else Candidate
+    made: Candidate = kind(
         tuple(complex(at) for at in pins),
         float(bars.frame[k]),
         float(bars.error[k]),
@@ -243,14 +271,16 @@ def _candidate(
         tuple(texts),
         unwrapped(angles, bool(of.forward[k]), turns),
         limits.masses,
+        *slide,
     )
+    return made
 
 
-def families(family: str) -> None:
+def families(family: str, known: Sequence[str] = ("four_bar",)) -> None:
     """Refuse an unknown family.
 
     Raises:
         ModelError: it is unknown.
     """
-    if family != "four_bar":
-        raise ModelError(f"family: {family!r}; must be 'four_bar'")
+    if family not in known:
+        refuse("family", f"{family!r}; must be {' or '.join(map(repr, known))}")

@@ -13,7 +13,7 @@ import numpy as np
 from kempe.base.arrays import Floats, fixed
 from kempe.model.model import Model
 from kempe.model.values import refuse
-from kempe.synthesis.tasks import value
+from kempe.synthesis.tasks import Complexes, value
 
 if TYPE_CHECKING:
     from kempe.case import Case
@@ -88,9 +88,9 @@ class Candidate:
     def _case(self) -> Case:
         from kempe.case import Case
 
-        o, a, b, d, p = self.pins
-        m = Model("four-bar", gravity=(0.0, -9.81))
-        m.ground.points(O=_pair(o), D=_pair(d))
+        o, a, b, _, p = self.pins
+        m = Model(self.type, gravity=(0.0, -9.81))
+        m.ground.points(O=_pair(o), D=_pair(self.pins[3]))
         m.bar("crank", mass=self._mass("crank", abs(a - o)), through={"O": _pair(o), "A": _pair(a)})
         turn = np.exp(-1j * self.frame)
         corners = {"A": (a - p) * turn, "B": (b - p) * turn, "P": 0j}
@@ -99,13 +99,9 @@ class Candidate:
             points={name: _pair(at) for name, at in corners.items()},
             shapes=self._rods(list(corners.values())),
         )
-        m.bar(
-            "rocker", mass=self._mass("rocker", abs(b - d)), through={"D": _pair(d), "B": _pair(b)}
-        )
         m.revolute("O", "ground.O", "crank.O")
         m.revolute("A", "crank.A", "coupler.A")
-        m.revolute("B", "coupler.B", "rocker.B")
-        m.revolute("D", "ground.D", "rocker.D")
+        output = self._output(m)
         start, rate, t_end = self.drive
         m.coordinate_driver("drive", "crank.angle", value=f"{start!r} + {rate!r}*t")
         guess = {
@@ -113,10 +109,19 @@ class Candidate:
             "coupler.x": p.real,
             "coupler.y": p.imag,
             "coupler.angle": self.frame,
-            "rocker.angle": float(np.angle(b - d)),
+            **output,
         }
         motion = {"type": "inverse_dynamics", "t_end": t_end, "output_step": t_end / _OUTPUTS}
         return Case(m, {"guess": guess}, analyses={"motion": motion})
+
+    def _output(self, m: Model) -> dict[str, float]:
+        """Add the output link to a model; its coordinates at the start."""
+        _, _, b, d, _ = self.pins
+        ends = {"D": _pair(d), "B": _pair(b)}
+        m.bar("rocker", mass=self._mass("rocker", abs(b - d)), through=ends)
+        m.revolute("B", "coupler.B", "rocker.B")
+        m.revolute("D", "ground.D", "rocker.D")
+        return {"rocker.angle": float(np.angle(b - d))}
 
     @property
     def drive(self) -> tuple[float, float, float]:
@@ -145,6 +150,28 @@ class Candidate:
             for x, y in sides
         ]
 
+    def positions(self, n: int) -> Floats:
+        """Pins A, B and the point P as the crank turns, (3, n, 2), m.
+
+        A crank that turns fully makes one turn from the first position on, any other one moves
+        through the positions of the task.
+        """
+        o, a, b, _, p = self.pins
+        first, rate, t_end = self.drive
+        pin = o + abs(a - o) * np.exp(1j * np.linspace(first, first + rate * t_end, n))
+        coupler = self._couplers(pin)
+        places = np.stack([pin, pin + coupler, pin + (p - a) / (b - a) * coupler])
+        return fixed(np.stack([places.real, places.imag], axis=2))
+
+    def _couplers(self, pin: Complexes) -> Complexes:
+        """The vectors from A to B for places of A."""
+        _, a, b, d, _ = self.pins
+        coupler, rocker, far = abs(b - a), abs(b - d), d - pin
+        cosine = (coupler**2 + abs(far) ** 2 - rocker**2) / (2.0 * coupler * abs(far))
+        side = np.sign((np.conj(d - a) * (b - a)).imag) or 1.0
+        turn = np.exp(1j * side * np.arccos(np.clip(cosine, -1.0, 1.0)))
+        return np.asarray(coupler * far / abs(far) * turn)
+
     def __repr__(self) -> str:
         lengths = ", ".join(f"{name} {x:.4g}" for name, x in self.lengths.items())
         wrong = "; ".join(self.defects) or "no defects"
@@ -163,8 +190,8 @@ def masses_of(given: Mapping[str, Any] | None) -> dict[str, float]:
     """
     found = {}
     for name, mass in (given or {}).items():
-        if name not in _LINKS[:3]:
-            refuse("masses", f"{name!r}; must be crank, coupler or rocker")
+        if name not in (*_LINKS[:3], "slider"):
+            refuse("masses", f"{name!r}; must be crank, coupler, rocker or slider")
         found[name] = value(mass, f"masses.{name}")
         if not found[name] > 0.0:
             refuse(f"masses.{name}", f"{mass!r}; must be > 0")
@@ -178,24 +205,3 @@ def unwrapped(angles: Floats, forward: bool, turns: bool) -> Floats:
         return fixed(np.unwrap(angles))
     steps = (sign * np.diff(angles)) % (2.0 * np.pi)
     return fixed(angles[0] + sign * np.concatenate([[0.0], np.cumsum(steps)]))
-
-
-def closed(one: Candidate, n: int) -> tuple[Floats, Floats]:
-    """Pins A, B and the point P, (3, n, 2), as the crank turns, from the first position on.
-
-    A crank that turns fully makes one turn, any other one moves through the positions of the task.
-
-    Returns:
-        The crank angles, (n,), and the places.
-    """
-    o, a, b, d, p = one.pins
-    first, rate, t_end = one.drive
-    crank = np.linspace(first, first + rate * t_end, n)
-    coupler, rocker = abs(b - a), abs(b - d)
-    pin = o + abs(a - o) * np.exp(1j * crank)
-    far = d - pin
-    cosine = (coupler**2 + abs(far) ** 2 - rocker**2) / (2.0 * coupler * abs(far))
-    side = np.sign((np.conj(d - a) * (b - a)).imag) or 1.0
-    turn = far / abs(far) * np.exp(1j * side * np.arccos(np.clip(cosine, -1.0, 1.0)))
-    places = np.stack([pin, pin + coupler * turn, pin + (p - a) / (b - a) * coupler * turn])
-    return fixed(crank), fixed(np.stack([places.real, places.imag], axis=2))

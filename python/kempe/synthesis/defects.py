@@ -98,6 +98,52 @@ def judged(o: Complexes, a: Complexes, b: Complexes, d: Complexes, way: int = 0)
     return Judged(lengths, places, turning, room >= -margin, least, here, forward)
 
 
+def judged_slides(
+    o: Complexes, a: Complexes, b: Complexes, way_of_slide: Complexes, way: int = 0
+) -> Judged:
+    """The defects of slider-cranks, as ``judged``.
+
+    The closures meet where the coupler is normal to the slide. A crank turns fully if its pin
+    stays within the length of the coupler from the line of the slide.
+
+    Args:
+        o: ground pivots, (n,).
+        a: pins of the cranks, (n, n_positions).
+        b: pins of the slides, (n, n_positions).
+        way_of_slide: directions of the slides, (n,).
+        way: see ``judged``.
+    """
+    slide = way_of_slide[:, None]
+    crank, coupler = abs(a - o[:, None])[:, 0], abs(b - a)[:, 0]
+    offset = cross(slide, o[:, None] - b)[:, 0]
+    margin = _MARGIN * (coupler + crank + abs(offset))
+    high, low = offset + crank > coupler + margin, crank - offset > coupler + margin
+    turning = (abs(offset) + crank) < coupler - margin
+    sine = (np.conj(slide) * (b - a)).real / coupler[:, None]
+    # a crank that is limited on both sides keeps its side of the normal of the slide
+    side = (np.conj(slide) * (a - o[:, None])).real
+    circuit = np.where(turning[:, None], sine, np.where((low & high)[:, None], side, 1.0)) > 0.0
+    # angles from the normal on which both limits are symmetric
+    normal = np.angle(way_of_slide) - np.pi / 2.0
+    angle = np.angle(a - o[:, None])
+    order, forward = _order(angle, turning, normal, (low, high), way)
+    places = np.stack(
+        [
+            _first(circuit != circuit[:, :1]),
+            _first((sine > 0.0) != (sine[:, :1] > 0.0)),
+            _first(np.abs(sine) < _DEAD),
+            order,
+        ]
+    )
+    places[1] = np.where(places[0] >= 0, -1, places[1])
+    places[3] = np.where((places[:2] >= 0).any(axis=0), -1, places[3])
+    far = (abs(offset) + crank) / coupler
+    least = np.where(turning, np.pi / 2.0 - np.arcsin(np.clip(far, 0.0, 1.0)), 0.0)
+    here = np.arcsin(np.clip(np.abs(sine), 0.0, 1.0)).min(axis=1)
+    lengths = np.column_stack([crank, coupler, np.full_like(crank, np.inf), abs(offset)])
+    return Judged(lengths, places, turning, turning, least, here, forward)
+
+
 def cross(x: Complexes, y: Complexes) -> Floats:
     """The third component of the cross product."""
     return np.asarray((np.conj(x) * y).imag)

@@ -19,6 +19,9 @@ from kempe.synthesis.tasks import Complexes
 _INFINITE = 1e-10
 #: A dyad is shorter than this share of the task: its pin and its pivot coincide.
 _SHORTEST = 1e-9
+#: Singular values that count as zero, relative to the largest, and sizes of the task within which
+#: pins of slides are.
+_SLIDE, _FAR = 1e-10, 1e3
 #: The golden angle, which spreads directions evenly.
 _GOLDEN = np.pi * (3.0 - np.sqrt(5.0))
 #: The columns of the conditions in which the ends of a dyad are.
@@ -209,6 +212,22 @@ class Conditions:
                 hint="leave out a pose, or change its angle",
             )
         return self.dyads(solved, complete=True)
+
+    def slides(self, n: int, seed: int) -> Dyads:
+        """Pins that move along straight lines of ground, and the directions of these lines.
+
+        X = (0, 0, g, u, v) is a null vector of the conditions. Four poses have one such pin, three
+        a circle of them, and two the whole plane, which are sampled.
+        """
+        _, sizes, vectors = np.linalg.svd(self.rows[:, 3:])
+        rank = int((sizes > _SLIDE * sizes[0]).sum())
+        null = vectors[rank:]
+        free = np.random.default_rng(seed).normal(size=(n if len(null) > 1 else 1, len(null)))
+        numbers = np.zeros((len(free), 7))
+        numbers[:, 3:] = free @ null
+        found = self.dyads(numbers[: n if len(null) else 0], complete=len(null) <= 1)
+        kept = np.isfinite(found.pin) & (abs(found.pin - self.origin) < _FAR * self.size)
+        return Dyads(found.pin[kept], found.pivot[kept], found.way[kept], found.complete)
 
     def _dependent(self) -> str:
         """Which pose follows from the others."""

@@ -21,8 +21,8 @@ from kempe.synthesis.tasks import Complexes, Pose
 class Found(Sequence[Candidate]):
     """Candidates, best first.
 
-    Exact candidates come first, then those whose crank turns fully with a large transmission
-    angle, then small ones.
+    Exact candidates come first, then those whose crank turns fully with a transmission angle of
+    45° or the largest one, then small ones.
 
     Attributes:
         complete: whether all solutions are known to be found.

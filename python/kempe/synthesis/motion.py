@@ -12,7 +12,7 @@ from kempe.base.arrays import Floats
 from kempe.errors import ModelError
 from kempe.model.values import Number
 from kempe.synthesis import assemble, tasks
-from kempe.synthesis.assemble import Bars
+from kempe.synthesis.assemble import Bars, Slides
 from kempe.synthesis.dyads import Conditions, Dyads
 from kempe.synthesis.fit import Task, distinct
 from kempe.synthesis.found import Found
@@ -43,7 +43,8 @@ def motion(
 
     Args:
         poses: x and y of the moving frame, m, and its angle, rad; numbers or texts ("30 deg").
-        family: "four_bar".
+        family: "four_bar"; or "slider_crank" for two to four poses, whose slides have all
+            directions.
         pivots: fixed ground pivots, ``{"O": (x, y), "D": (x, y)}``, m; O belongs to the crank.
         samples: number of dyads that are sampled if some of their choices are free.
         seed: of the samples.
@@ -54,10 +55,15 @@ def motion(
         ModelError: no linkage takes the poses, two of them are the same, or a pivot contradicts
             them.
     """
-    assemble.families(family)
+    assemble.families(family, ("four_bar", "slider_crank"))
     places, angles = tasks.poses(poses)
-    fixed = tasks.pivots(pivots, "O D")
+    fixed = tasks.pivots(pivots, "O D" if family == "four_bar" else "O")
     asked = assemble.limits(**limits)
+    if family == "slider_crank":
+        slides = _slides(places, angles, fixed.get("O"), samples, seed)
+        return assemble.collected(
+            slides, asked, either=False, complete=False, task=places, poses=poses
+        )
     if len(places) > 5:
         bars = _fitted(Task(places, angles, pivots=fixed), seed)
         return assemble.collected(
@@ -91,6 +97,30 @@ def bars_of(pairs: Any, chosen: Any, places: Complexes, angles: Floats) -> Bars:
     error = abs(lengths - lengths[:, :, :1]).max(axis=(0, 2), initial=0.0)
     p = np.broadcast_to(places, a.shape)
     return Bars(o, a, b, d, p, np.full(len(o), angles[0]), error)
+
+
+def _slides(
+    places: Complexes, angles: Floats, pivot: complex | None, samples: int, seed: int
+) -> Slides:
+    """Slider-cranks of dyads of cranks and of slides at poses."""
+    conditions = Conditions(places, angles)
+    if len(places) > 4:
+        hint = "leave out poses, or choose family='four_bar'"
+        raise ModelError(f"poses: {len(places)}; slider-cranks take at most four", hint=hint)
+    cranks = conditions.all(samples, seed, pivot=pivot).of("pin")
+    slides = conditions.slides(samples, seed + 1)
+    if not len(slides) or not len(cranks):
+        hint = "leave out or move a pose, or let the pivot be free"
+        raise ModelError("poses: no pin moves along a straight line", hint=hint)
+    first, second = assemble.pairs_of(cranks, slides, seed)
+    a = assemble.moved(cranks.pin[first], places, angles)
+    b = assemble.moved(slides.pin[second], places, angles)
+    o, way = cranks.pivot[first], slides.way[second]
+    away = abs(abs(a - o[:, None]) - abs(a[:, :1] - o[:, None]))
+    off = abs((np.conj(way)[:, None] * (b - b[:, :1])).imag)
+    error = np.maximum(away, off).max(axis=1, initial=0.0)
+    p, frame = np.broadcast_to(places, a.shape), np.full(len(o), angles[0])
+    return Slides(o, a, b, b[:, 0], p, frame, error, way)
 
 
 def _fitted(task: Task, seed: int) -> Bars:

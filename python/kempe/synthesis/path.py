@@ -128,6 +128,8 @@ def _timed(
     first = seen.all(counts[0], seed, more=more, kinds=kinds).of("pin")
     parts = []
     for k, (pin, arm) in enumerate(zip(first.pin, first.pivot, strict=True)):
+        if not free and arm.real < 0.0:  # the crank would point the other way
+            continue
         o = places[0] - pin * np.exp(1j * cranks[0])
         a = o + arm * np.exp(1j * cranks)
         frames = np.angle(places - a)
@@ -255,6 +257,8 @@ def _best(task: Task, starts: list[Start]) -> Bars:
     with np.errstate(all="ignore"):
         reached = [task.fitted(start) for start in starts]
     reached = [one for one in reached if np.isfinite(one[1])]
+    if task.cranks is not None and not task.offset:
+        reached = [one for one in reached if one[0].linkage[2] > 0.0]
     if task.exact and any(one[1] < EXACT**2 for one in reached):
         reached = [one for one in reached if one[1] < EXACT**2]
     reached.sort(key=lambda one: one[1])
