@@ -12,6 +12,7 @@ from kempe.draw.units import scale
 from kempe.errors import ModelError
 from kempe.model.values import instance
 from kempe.plot import style
+from kempe.plot.page import Page
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -58,6 +59,11 @@ def synthesis(found: Found, *, most: int = MOST) -> Figure:
         for axes in panels[len(shown) :]:
             axes.set_axis_off()
     return made
+
+
+def synthesis_pages(found: Found) -> list[Page]:
+    """The figure that ``kempe synthesis`` writes."""
+    return [Page(0, "synthesis", "synthesis", lambda: synthesis(found), key=True)]
 
 
 def _panel(axes: Axes, found: Found, one: Candidate, number: int) -> None:

@@ -4,6 +4,7 @@
     path                    four-bars whose coupler point passes points
     cognates                the two other four-bars with the same coupler curve
     function                four-bars that couple angles of crank and rocker
+    from_file               the task of a CSV file
     dyads                   all dyads of five poses
     limits                  the limits of candidates that all of them accept
     burmester               the circle-point and centre-point curves of four poses
@@ -21,6 +22,7 @@ from kempe.synthesis.found import Found
 from kempe.synthesis.function import function
 from kempe.synthesis.motion import motion
 from kempe.synthesis.path import path
+from kempe.synthesis.read import from_file
 from kempe.synthesis.slider import SliderCrank
 
 __all__ = [
@@ -31,6 +33,7 @@ __all__ = [
     "burmester",
     "cognates",
     "dyads",
+    "from_file",
     "function",
     "limits",
     "motion",
