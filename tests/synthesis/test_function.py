@@ -82,7 +82,7 @@ def test_the_simulated_rocker_has_the_angles() -> None:
 
 
 def test_free_scales_make_six_and_seven_pairs_exact() -> None:
-    """The search is not complete: it may end without a solution, with an error that says so."""
+    """The search is not complete: it may end with an error in place of a solution."""
     random, sources = np.random.default_rng(4), 0
     for n in (7, 7, 7, 6):
         bar, crank = drawn(random, n)
@@ -105,6 +105,7 @@ def test_free_scales_make_six_and_seven_pairs_exact() -> None:
         ([(0, 1)], {}, "at least two"),
         ([(0, 1), (0, 2)], {}, "pairs 1 and 2 have the same crank angle"),
         ([(0, 1), (1, 2)], {"scales": "loose"}, "scales"),
+        ([(x, x) for x in range(5)], {}, "pair 5 adds none to the others; leave out a pair"),
         ([(0, 1), (1, 2)], {"ground": 0}, "ground"),
         ([(0, "1 dge"), (1, 2)], {}, r"pairs\[1\]"),
     ],

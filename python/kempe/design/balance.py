@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.base.names import unknown
+from kempe.design.places import is_pin
 from kempe.design.shaking import shaking
 from kempe.errors import ModelError
 from kempe.model.values import refuse
@@ -127,8 +128,9 @@ def _radius(name: str, given: float | Mapping[str, float] | None, arms: Sequence
 def _pivots(case: Case) -> dict[str, tuple[str, str]]:
     """The joint with ground and the point of each body that turns about a fixed pivot."""
     found = dict[str, tuple[str, str]]()
+    joints = case.model.compile().constraints
     for joint, entry in case.model.tree().get("joints", {}).items():
-        if entry.get("type") == "revolute":
+        if is_pin(joints[joint]):
             ends = entry["i"].split(".", 1), entry["j"].split(".", 1)
             for (body, point), (other, _) in (ends, ends[::-1]):
                 if other == "ground" and body != "ground":
@@ -143,17 +145,18 @@ def _with(
     from copy import copy
 
     made = copy(case)
+    m = made.model
     points = case.model.compile().bodies
     for name, one in masses.items():
         point = pivots[name][1]
         arm = np.subtract(one.at, points[name].points[point])
         weight = f"{name}_counterweight"
-        made.model.body(
+        m.body(
             weight,
             mass=one.mass,
             inertia=0.0,
             center=(float(arm[0]), float(arm[1])),
             points={point: (0.0, 0.0), "W": (float(arm[0]), float(arm[1]))},
         )
-        made.model.weld(f"{name}_weld", f"{name}.{point}", f"{weight}.{point}")
+        m.weld(f"{name}_weld", f"{name}.{point}", f"{weight}.{point}")
     return made

@@ -61,9 +61,11 @@ class Conditions:
     Args:
         places: the origin of the moving frame at each pose.
         angles: its angle, rad.
+        what: the name of a pose in messages.
     """
 
-    def __init__(self, places: Complexes, angles: Floats) -> None:
+    def __init__(self, places: Complexes, angles: Floats, what: str = "pose") -> None:
+        self.what = what
         self.origin, self.size = complex(places[0]), tasks.size(places)
         p = (places[1:] - places[0]) / self.size
         turn = np.exp(1j * (angles[1:] - angles[0]))
@@ -192,13 +194,13 @@ class Conditions:
             ModelError: the conditions contradict each other or are dependent.
         """
         more = np.zeros((0, 7)) if more is None else more
-        count, poses = len(self.rows) + len(more), f"{len(self.rows) + 1} poses"
+        count, poses = len(self.rows) + len(more), f"{len(self.rows) + 1} {self.what}s"
         if pivot is not None:
             at = (pivot - self.origin) / self.size
             if len(self.rows) >= 2:
                 found = self.with_end("pivot", np.array([at]))
                 if len(self.rows) > 2 and not len(found):
-                    hint = "leave out a pose, or let the pivot be free"
+                    hint = f"leave out a {self.what}, or let the pivot be free"
                     raise ModelError(f"{poses} and a fixed pivot contradict each other", hint=hint)
                 return found
             near = _scattered(n, np.random.default_rng(seed))
@@ -209,7 +211,7 @@ class Conditions:
         if solved is None:
             raise ModelError(
                 f"the conditions of the {poses} depend on each other: {self._dependent()}",
-                hint="leave out a pose, or change its angle",
+                hint=f"leave out a {self.what}, or change its angle",
             )
         return self.dyads(solved, complete=True)
 
@@ -234,7 +236,7 @@ class Conditions:
         rank = np.linalg.matrix_rank(self.rows, tol=1e-9)
         for k in range(len(self.rows), 0, -1):
             if np.linalg.matrix_rank(np.delete(self.rows, k - 1, axis=0), tol=1e-9) == rank:
-                return f"pose {k + 1} adds none to the others"
+                return f"{self.what} {k + 1} adds none to the others"
         return "a limit follows from the poses"
 
 

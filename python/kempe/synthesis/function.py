@@ -99,7 +99,7 @@ def _dyads(pairs: Floats, fixed: bool, samples: int, seed: int) -> Dyads:
     """The dyads of the rocker, seen from the crank."""
     crank, rocker = pairs.T
     angles = rocker - crank
-    conditions = Conditions(np.exp(-1j * crank), angles)
+    conditions = Conditions(np.exp(-1j * crank), angles, "pair")
     if fixed:
         # the pins of crank and rocker lie on the lines of their offsets
         turn, origin = np.exp(1j * angles[0]), conditions.origin

@@ -69,8 +69,17 @@ def motion(
         return assemble.collected(
             bars, asked, either=not fixed, complete=False, task=places, poses=poses
         )
+    bars, complete = _exact(places, angles, fixed, samples, seed)
+    return assemble.collected(
+        bars, asked, either=not fixed, complete=complete, task=places, poses=poses
+    )
+
+
+def _exact(
+    places: Complexes, angles: Floats, fixed: Mapping[str, complex], samples: int, seed: int
+) -> tuple[Bars, bool]:
+    """Four-bars of pairs of dyads, and whether these are all."""
     conditions = Conditions(places, angles)
-    either = not fixed
     free = conditions.all(samples, seed) if len(fixed) < 2 else None
     sides = [
         conditions.all(samples, seed + 1, pivot=fixed[name]) if name in fixed else free
@@ -81,11 +90,7 @@ def motion(
     _check(first, second, len(places), fixed)
     chosen = assemble.pairs_of(first, None if not fixed else second, seed)
     pairs = (first.pin, first.pivot), (second.pin, second.pivot)
-    bars = bars_of(pairs, chosen, places, angles)
-    complete = first.complete and second.complete
-    return assemble.collected(
-        bars, asked, either=either, complete=complete, task=places, poses=poses
-    )
+    return bars_of(pairs, chosen, places, angles), first.complete and second.complete
 
 
 def bars_of(pairs: Any, chosen: Any, places: Complexes, angles: Floats) -> Bars:
@@ -157,5 +162,5 @@ def _check(first: Dyads, second: Dyads, n: int, fixed: Mapping[str, complex]) ->
             raise ModelError(f"no dyad with the pivot {name} takes the {n} poses", hint=hint)
     if not fixed and len(first) < 2:
         count = f"{len(first) or 'no'} real dyad{'' if len(first) == 1 else 's'}"
-        hint = "leave out or move a pose; four poses always leave a choice"
+        hint = "leave out or move a pose"
         raise ModelError(f"poses: no four-bar takes all {n}: they have {count}", hint=hint)

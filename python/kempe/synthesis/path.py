@@ -78,10 +78,9 @@ def path(
     if exact:
         assert cranks is not None
         bars = _timed(places, cranks, free, seed)
-    elif cranks is not None and not fixed:
-        bars = _from_parts(task, seed)
     else:
-        bars = _searched(task, starts, seed)
+        bars = together([]) if cranks is None or fixed else _from_parts(task, seed)
+        bars = bars if len(bars.o) else _searched(task, starts, seed)
     if not len(bars.o):
         hint = "move or leave out a point, relax the angles or pivots, or try another seed"
         raise ModelError(f"points: no four-bar found for all {len(places)} points", hint=hint)
@@ -121,7 +120,7 @@ def _timed(
         seed: of samples.
         counts: samples of cranks, and of couplers for each of them.
     """
-    seen = Conditions(places * np.exp(-1j * cranks), -cranks)
+    seen = Conditions(places * np.exp(-1j * cranks), -cranks, "point")
     line = seen.line(3, 0.0, 1.0, -seen.origin.imag / seen.size)
     more = None if free else line[None]
     kinds = "pin pivot" if free else "pin"

@@ -179,7 +179,7 @@ def read_columns(path: Path, wanted: Mapping[str, str]) -> dict[str, Floats]:
         wanted: the unit of each column: "m", "rad", or "" for any number.
 
     Raises:
-        FileError, ModelError: the file cannot be read, a cell is no number, or a unit is wrong.
+        FileError, ModelError: the file cannot be read, a cell is not a number, or a unit is wrong.
     """
     given, found = _csv(path), dict[str, Floats]()
     for name, needed in wanted.items():
