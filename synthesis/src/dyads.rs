@@ -69,10 +69,9 @@ fn turned(vectors: &[Vec<Complex>]) -> [Dyad; 3] {
     }
     for (sine, (i, j)) in TURNS.iter().zip([(0, 1), (1, 2), (2, 0)]) {
         let cosine = (1.0 - sine * sine).sqrt();
-        for k in 0..7 {
-            let (a, b) = (plane[i][k], plane[j][k]);
-            (plane[i][k], plane[j][k]) = (cosine * a - sine * b, sine * a + cosine * b);
-        }
+        let (a, b) = (plane[i], plane[j]);
+        plane[i] = std::array::from_fn(|k| cosine * a[k] - sine * b[k]);
+        plane[j] = std::array::from_fn(|k| sine * a[k] + cosine * b[k]);
     }
     plane
 }

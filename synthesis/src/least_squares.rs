@@ -37,9 +37,11 @@ struct Normal {
     /// (n, n) and (n), of the linkage.
     matrix: Vec<f64>,
     right: Vec<f64>,
-    /// For each position: its inverse block, its coupling (2, n) and its right side.
-    blocks: Vec<([[f64; 2]; 2], Vec<[f64; 2]>, [f64; 2])>,
+    blocks: Vec<Block>,
 }
+
+/// Of a position: its inverse block, its coupling (2, n) and its right side.
+type Block = ([[f64; 2]; 2], Vec<[f64; 2]>, [f64; 2]);
 
 /// A least sum of squares near a start. Unknowns of the linkage that are not `free` keep their values.
 pub fn least_squares<P: Problem>(of: &P, start: Fitted, free: &[bool], steps: usize) -> Fitted {
