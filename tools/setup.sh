@@ -89,7 +89,7 @@ sources_sum() {
     (
         cd "$ROOT" && choose_instructions && {
             printf '%s\n' "$PROFILE ${RUSTFLAGS:-}"
-            find .cargo Cargo.toml Cargo.lock pyproject.toml core drawing exchange bindings/python \
+            find .cargo Cargo.toml Cargo.lock pyproject.toml core drawing exchange synthesis bindings/python \
                 \( -path core/tests -o -path drawing/tests -o -path exchange/tests -o -path core/benches -o -name target \) -prune -o \
                 -type f -exec cksum {} + | LC_ALL=C sort
         } | cksum

@@ -49,6 +49,7 @@ Results:
     report.summary          peaks, settling times, energy balance
     load_solution           read a saved solution
 
+    synthesis               linkages for poses, points and pairs of angles
     design                  coupler curves, transmission angles, motors, flywheels, pin loads
 
 Show:
@@ -77,6 +78,7 @@ if TYPE_CHECKING:
     from kempe import errors as errors
     from kempe import plot as plot
     from kempe import report as report
+    from kempe import synthesis as synthesis
     from kempe.analyses.assembly import assemble as assemble
     from kempe.analyses.configurations import ConfigurationsResult as ConfigurationsResult
     from kempe.analyses.configurations import configurations as configurations
@@ -275,6 +277,7 @@ _HOME = {
     "still": "draw.still",
     "study": "sweeps.studies",
     "sweep": "sweeps",
+    "synthesis": "",
     "tolerances": "sweeps",
     "units": "base.display_units",
     "write_dxf": "draw.dxf",

@@ -14,6 +14,7 @@ CODE = [
         "core",
         "drawing",
         "exchange",
+        "synthesis",
         "bindings",
         "python",
         "tests",

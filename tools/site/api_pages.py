@@ -85,6 +85,11 @@ PAGES = {
             "kempe.Allocation",
         ),
     ),
+    "synthesis": ApiPage(
+        "Synthesis",
+        "Linkages for poses, points and pairs of angles: `kp.synthesis`.",
+        ("kempe.synthesis.*",),
+    ),
     "options": ApiPage(
         "Options and methods",
         "Options of the analyses, methods of integration and stabilizations of the constraints.",

@@ -29,6 +29,7 @@ mod states;
 mod statistics;
 mod stepped_run;
 mod sweep;
+mod synthesis;
 mod tables;
 mod transmission;
 mod watch;
@@ -107,6 +108,9 @@ fn add_drawing_and_sweeps(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(drawing::view_around, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::place_texts, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::text_width, module)?)?;
+    module.add_function(wrap_pyfunction!(synthesis::dyads, module)?)?;
+    module.add_function(wrap_pyfunction!(synthesis::fit_coupler, module)?)?;
+    module.add_function(wrap_pyfunction!(synthesis::fit_pairs, module)?)?;
     Ok(())
 }
 

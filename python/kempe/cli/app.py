@@ -44,6 +44,8 @@ from kempe.cli.study import EXAMPLES as STUDY_EXAMPLES
 from kempe.cli.study import study as study_command
 from kempe.cli.sweep import EXAMPLES as SWEEP_EXAMPLES
 from kempe.cli.sweep import sweep as sweep_command
+from kempe.cli.synthesis import EXAMPLES as SYNTHESIS_EXAMPLES
+from kempe.cli.synthesis import synthesis as synthesis_command
 
 #: Commands that run the analyses of one type, and the analyses that these start from.
 ANALYSES = {
@@ -78,6 +80,7 @@ app.command("sweep", epilog=SWEEP_EXAMPLES)(sweep_command)
 app.command("gradient", epilog=GRADIENT_EXAMPLES)(gradient_command)
 app.command("optimize", epilog=OPTIMIZE_EXAMPLES)(optimize_command)
 app.command("fit", epilog=FIT_EXAMPLES)(fit_command)
+app.command("synthesis", epilog=SYNTHESIS_EXAMPLES)(synthesis_command)
 app.command("studio", epilog=STUDIO_EXAMPLES)(studio_command)
 app.command("convert", epilog=CONVERT_EXAMPLES)(convert_command)
 app.command("new", epilog=NEW_EXAMPLES)(new_command)

@@ -16,6 +16,10 @@ Dynamics:
     flywheel                inertia for a given fluctuation of the speed
     shaking                 shaking force and moment on ground
 
+Making:
+    balance                 counterweights for the shaking force
+    gear_train              tooth numbers for a ratio
+
 Pin loads:
     pin_load, pin_loads     force of a joint in the frame of a body, and its extremes
     pin_table, write_pin_loads
@@ -24,10 +28,12 @@ Pin loads:
 """
 
 from kempe.base.arguments import explain_functions
+from kempe.design.balance import Balance, Counterweight, balance
 from kempe.design.centres import InstantCentre, instant_centre
 from kempe.design.coupler_curve import CouplerCurve, coupler_curve
 from kempe.design.duty import Duty, Flywheel, duty, flywheel
 from kempe.design.free_body import FreeBody, free_body
+from kempe.design.gear_train import GearTrain, gear_train
 from kempe.design.locate import Limits
 from kempe.design.pin_loads import (
     PinLoad,
@@ -51,10 +57,13 @@ from kempe.design.transmission import (
 from kempe.design.wrenches import Inertia, Load
 
 __all__ = [
+    "Balance",
+    "Counterweight",
     "CouplerCurve",
     "Duty",
     "Flywheel",
     "FreeBody",
+    "GearTrain",
     "Inertia",
     "InstantCentre",
     "Limits",
@@ -66,11 +75,13 @@ __all__ = [
     "Toggle",
     "TransmissionAngle",
     "acceleration_polygon",
+    "balance",
     "coupler_curve",
     "duty",
     "export_load_cases",
     "flywheel",
     "free_body",
+    "gear_train",
     "instant_centre",
     "load_cases",
     "mechanical_advantage",

@@ -31,6 +31,7 @@ from kempe.plot.slopes import slopes
 from kempe.plot.sweep_pages import sweep_pages
 from kempe.plot.sweep_scatter import sweep_scatter
 from kempe.plot.sweeps import sweep_contributions, sweep_histogram, sweep_lines, sweep_map
+from kempe.plot.synthesis import burmester, synthesis
 from kempe.plot.time_axis import transient
 from kempe.plot.torques import torques
 from kempe.plot.transmission import transmission_angle
@@ -40,6 +41,7 @@ __all__ = [
     "acceleration_polygon",
     "accelerations",
     "all_reactions",
+    "burmester",
     "comparison",
     "configuration",
     "coupler_curve",
@@ -72,6 +74,7 @@ __all__ = [
     "sweep_map",
     "sweep_pages",
     "sweep_scatter",
+    "synthesis",
     "torque_speed",
     "torques",
     "transient",

@@ -176,6 +176,28 @@ def _column(given: Mapping[str, Any], header: str, what: str) -> tuple[Floats, s
     return values * factor, of
 
 
+def read_columns(path: Path, wanted: Mapping[str, str]) -> dict[str, Floats]:
+    """Columns of a CSV file in SI units and rad; those that the file lacks are left out.
+
+    Args:
+        path: the file.
+        wanted: the unit of each column: "m", "rad", or "" for any number.
+
+    Raises:
+        FileError, ModelError: the file cannot be read, a cell is not a number, or a unit is wrong.
+    """
+    given, found = _csv(path), dict[str, Floats]()
+    for name, needed in wanted.items():
+        if any(name in (header, _split(header)[0]) for header in given):
+            what = f"column in {path}"
+            found[name], own = _column(given, name, what)
+            if own and needed and own != needed:
+                _refuse_other(f"{path}: {name}", own, needed)
+            if np.isnan(found[name]).any():
+                refuse(f"{path}: {name}", "a cell is empty")
+    return found
+
+
 def _split(header: str) -> tuple[str, str]:
     match = _HEADER.fullmatch(header)
     # behind a comma, kempe writes remarks on a column

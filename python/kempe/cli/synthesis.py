@@ -1,0 +1,109 @@
+"""``kempe synthesis``: linkages for poses, points or pairs of angles."""
+
+from __future__ import annotations
+
+from math import degrees
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.text import Text
+
+from kempe.cli.arguments import AsJson, stem
+from kempe.cli.console import answers, figure, heading, table
+from kempe.cli.failure import document
+
+if TYPE_CHECKING:
+    from kempe.synthesis import Candidate, Found
+
+EXAMPLES = """Examples:
+
+  kempe synthesis motion poses.csv
+
+  kempe synthesis path points.csv --transmission-angle "40 deg" --rank drive.effort.peak
+"""
+#: Candidates in the printed table.
+_SHOWN = 10
+
+
+def synthesis(  # noqa: PLR0917 - typer uses the annotations of options and arguments
+    task: Annotated[str, typer.Argument(metavar="TASK", help="motion, path or function.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="CSV with units in its headers.")],
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="Folder for results; default out/<FILE>/synthesis."),
+    ] = None,
+    family: Annotated[str, typer.Option(help="four_bar; slider_crank for motion.")] = "four_bar",
+    tell: Annotated[bool, typer.Option("--tell", help="Keep candidates with defects.")] = False,
+    transmission_angle: Annotated[
+        str | None, typer.Option(help="Least transmission angle, such as '40 deg'.")
+    ] = None,
+    grashof: Annotated[
+        bool, typer.Option("--grashof", help="Require Grashof's condition.")
+    ] = False,
+    rank: Annotated[
+        str | None, typer.Option(help="Sort by a column of sweeps, such as drive.effort.peak.")
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Seed of samples and starts.")] = 0,
+    as_json: AsJson = False,
+) -> None:
+    """Find linkages for a task; write a table, the best case and a figure."""
+    from kempe.base import files
+    from kempe.plot import save
+    from kempe.plot.synthesis import synthesis_pages
+    from kempe.synthesis import from_file
+
+    with document(as_json) as content:
+        folder = files.checked_path(output or Path("out") / stem(file) / "synthesis", "write")
+        options: dict[str, Any] = {"transmission_angle": transmission_angle, "grashof": grashof}
+        options |= {"defects": "tell" if tell else "exclude", "family": family, "seed": seed}
+        found = from_file(task, file, **options)
+        if rank is not None:
+            found = found.ranked(rank)
+        console = answers(silent=as_json)
+        console.print(Text(repr(found)[1:-1]))
+        written = []
+        if len(found):
+            rows = [_row(k, one) for k, one in enumerate(found[:_SHOWN], 1)]
+            table(console, ["", "type", "error", "transmission angle", "size [m]", "defects"], rows)
+            written = _write(found, folder)
+            written += save(synthesis_pages(found), folder / "figures")
+            heading(console, "Files")
+            for path in written:
+                console.print(Text(f"  {path}"))
+        content.update({**_summary(found), "files": [str(path) for path in written]})
+
+
+def _row(number: int, one: Candidate) -> list[str]:
+    angle = f"{degrees(one.transmission_angle):.1f}°"
+    wrong = "; ".join(one.defects)
+    error = figure(one.error) if one.error > 1e-9 * one.size else "0"
+    return [str(number), one.type, error, angle, figure(one.size), wrong]
+
+
+def _write(found: Found, folder: Path) -> list[Path]:
+    """The table of all candidates and the case of the best one."""
+    from kempe.base import files
+
+    files.write_text(folder / "candidates.csv", found.text())
+    found[0].case.save(folder / "best.toml")
+    return [folder / "candidates.csv", folder / "best.toml"]
+
+
+def _summary(found: Found) -> dict[str, Any]:
+    """The candidates in SI units and rad."""
+    return {
+        "complete": found.complete,
+        "excluded": dict(found.excluded),
+        "candidates": [
+            {
+                "type": one.type,
+                "points": dict(one.points),
+                "lengths": dict(one.lengths),
+                "error": one.error,
+                "transmission_angle": one.transmission_angle,
+                "defects": list(one.defects),
+            }
+            for one in found
+        ],
+    }

@@ -1,0 +1,43 @@
+"""Linkages for a task: poses of the coupler, points of a path, pairs of angles.
+
+    motion                  linkages whose coupler takes poses
+    path                    four-bars whose coupler point passes points
+    cognates                the two other four-bars with the same coupler curve
+    function                four-bars that couple angles of crank and rocker
+    from_file               the task of a CSV file
+    dyads                   all dyads of five poses
+    limits                  the limits of candidates that all of them accept
+    burmester               the circle-point and centre-point curves of four poses
+
+The results are a sequence of candidates, best first, each with a case for all analyses.
+"""
+
+from kempe.base.arguments import explain_functions
+from kempe.synthesis.assemble import limits
+from kempe.synthesis.burmester import Burmester, burmester
+from kempe.synthesis.candidate import Candidate
+from kempe.synthesis.cognates import cognates
+from kempe.synthesis.dyads import dyads
+from kempe.synthesis.found import Found
+from kempe.synthesis.function import function
+from kempe.synthesis.motion import motion
+from kempe.synthesis.path import path
+from kempe.synthesis.read import from_file
+from kempe.synthesis.slider import SliderCrank
+
+__all__ = [
+    "Burmester",
+    "Candidate",
+    "Found",
+    "SliderCrank",
+    "burmester",
+    "cognates",
+    "dyads",
+    "from_file",
+    "function",
+    "limits",
+    "motion",
+    "path",
+]
+
+explain_functions(globals())
