@@ -86,8 +86,11 @@ def test_published_path() -> None:
 
 def test_a_better_path_than_the_published_one() -> None:
     path = kp.Path(POINTS, of="coupler.P", angles=ANGLES)
+    narrow = dict.fromkeys(("r1", "r2", "r3", "r4"), (0.5, 20)) | dict.fromkeys(
+        ("rcx", "rcy"), (-10, 10)
+    )
     best = kp.optimize(
-        path_generator(np.pi / 6, np.pi / 2), BOUNDS, minimize=path, subject_to=ORDER, starts=4,
+        path_generator(np.pi / 6, np.pi / 2), narrow, minimize=path, subject_to=ORDER, starts=6,
         seed=1,
     )  # fmt: skip
     objectives = [one.objective for one in best.candidates]

@@ -39,6 +39,8 @@ EXAMPLES = """Examples:
 """
 #: Most candidates that are printed.
 _MOST = 5
+#: Most points of a front that are printed.
+_MOST_OF_FRONT = 9
 
 
 def optimize(  # noqa: PLR0917 - typer uses the annotations of options and arguments
@@ -109,7 +111,11 @@ def _write(best: Optimum, file: Path, settings: list[str] | None, folder: Path) 
     save_changed(best.case, file, best.values, settings, path)
     best.to_csv(folder / "history.csv")
     figures = save(optimization_pages(best), folder / "figures")
-    return [path, folder / "history.csv", *figures]
+    tables = [folder / "history.csv"]
+    if len(best.labels) > 1:
+        tables.append(folder / "front.csv")
+        best.front_to_csv(tables[-1])
+    return [path, *tables, *figures]
 
 
 @contextmanager
@@ -138,8 +144,12 @@ def _told(case: Any) -> Iterator[Callable[[int, int, float], None]]:
 def _show(console: Console, best: Optimum) -> None:
     """Print the objective, the values, what limits them, and other candidates."""
     title = f"{best.label} = {_in_unit(best.objective, best.unit)}"
+    title = f"Front of {', '.join(best.labels)}" if len(best.labels) > 1 else title
     console.print(Text(title, style="bold"))
     console.print(Text(f"  {best.message}; {best.runs} runs"))
+    if len(best.labels) > 1:
+        _show_front(console, best)
+        return
     heading(console, "Variables")
     rows = []
     before = best.before
@@ -161,6 +171,8 @@ def _show(console: Console, best: Optimum) -> None:
         heading(console, "What limits it")
         about = "the objective gains per SI unit"
         table(console, ["bound or limit", about], [[k, figure(x)] for k, x in best.active.items()])
+    for text in best.remarks:
+        console.print(Text(f"  {text}"))
     if len(best.candidates) > 1:
         heading(console, "Other candidates")
         names = list(best.values)
@@ -172,6 +184,24 @@ def _show(console: Console, best: Optimum) -> None:
             for one in best.candidates[1 : _MOST + 1]
         ]
         table(console, [best.label, *names], rows)
+
+
+def _show_front(console: Console, best: Optimum) -> None:
+    """Print points that are evenly spread over the front; ``front.csv`` has all."""
+    count = len(best.candidates)
+    places = sorted({round(k * (count - 1) / (_MOST_OF_FRONT - 1)) for k in range(_MOST_OF_FRONT)})
+    units = [
+        _symbol(unit) for unit in (*best.units_of_objectives, *map(best.units.get, best.values))
+    ]
+    rows = []
+    for one in (best.candidates[k] for k in places):
+        pairs = [*zip(one.objectives.values(), best.units_of_objectives, strict=True)]
+        pairs += [(x, best.units[name]) for name, x in one.values.items()]
+        rows.append([_number(x, unit) for x, unit in pairs])
+    names = [*best.labels, *best.values]
+    heads = [f"{name} / {unit}" if unit else name for name, unit in zip(names, units, strict=True)]
+    heading(console, f"{len(places)} of {count} points")
+    table(console, heads, rows)
 
 
 def _number(value: float, unit: str) -> str:
@@ -203,8 +233,14 @@ def _summary(best: Optimum) -> dict[str, Any]:
         "values": dict(best.values),
         "measures": dict(best.measures),
         "active": dict(best.active),
+        "remarks": list(best.remarks),
         "candidates": [
-            {"objective": one.objective, "values": dict(one.values)} for one in best.candidates
+            {
+                "objective": one.objective,
+                "objectives": dict(one.objectives),
+                "values": dict(one.values),
+            }
+            for one in best.candidates
         ],
         "runs": best.runs,
         "success": best.success,

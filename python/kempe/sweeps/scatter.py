@@ -16,7 +16,8 @@ from kempe.model.values import mapping, numbers, refuse
 from kempe.sweeps.asked import plan_of
 from kempe.sweeps.gradients.run import gradient, in_analyses, numbers_and_slopes
 from kempe.sweeps.plan import Plan
-from kempe.sweeps.problems.asked import limits_of, with_units
+from kempe.sweeps.problems.asked import limits_of, units_of, with_units
+from kempe.sweeps.problems.columns import Part
 from kempe.sweeps.problems.formulas import Limit, Parameters
 from kempe.sweeps.result import SweepResult
 from kempe.sweeps.run import sweep
@@ -115,9 +116,13 @@ def tolerances(
     middle = present(case, given)  # the sweep refuses unknown names
     spread = {name: {"normal": [middle[name], x]} for name, x in given.items()}
     read = limits_of(case, subject_to, analysis)
+    for text in (text for one in read for text in one.room.names if ":" in text or "(" in text):
+        told = f"subject_to: {text}: the limits of a yield are those of one analysis and load case"
+        raise ModelError(told, hint="leave it out, or name its analysis: analysis='NAME'")
     measures = list(dict.fromkeys([measure, *(name for one in read for name in one.room.columns)]))
     plan = plan_of(case, {"measures": measures, "analysis": analysis}, given)
-    limits = with_units(read, plan)
+    of_all = Part(plan, tuple(one.text for one in plan.wanted), "", 0)
+    limits = with_units(read, units_of([of_all], of_all.parameters))
     sample = sweep(
         case, spread, measures, design="random", n=n, seed=seed, analysis=analysis, **options
     )

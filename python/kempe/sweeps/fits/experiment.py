@@ -16,6 +16,7 @@ from kempe.results.variable import TIME
 from kempe.sweeps.fits.data import Data
 from kempe.sweeps.numbers import driven_model
 from kempe.sweeps.plan import NoSlopesError, Plan, chosen, without_later
+from kempe.sweeps.variables import changed
 from kempe.sweeps.wanted import MOTIONS
 
 if TYPE_CHECKING:
@@ -154,10 +155,7 @@ def experiments(
                     f"data: an experiment sets {both} to {own[both]!r}, but the fit finds {both}",
                     hint=f"leave {both} out of the settings, or out of the parameters",
                 )
-            parameters = {name: x for name, x in own.items() if "." not in name}
-            start = {name: x for name, x in own.items() if "." in name}
-            own = case.with_parameters(parameters) if parameters else case
-            own = own.with_start(start) if start else own
+            own = changed(case, own)
         if not isinstance(own, Case):
             raise ModelError(f"data: {own!r} is not a case; {form}")
         found.append(experiment(own, of, names, analysis))

@@ -12,16 +12,14 @@ from numpy.typing import NDArray
 
 from kempe.base.arrays import Floats
 from kempe.errors import InternalError, KempeError
-from kempe.sweeps.gradients.run import in_analyses, numbers_and_slopes
 from kempe.sweeps.plan import Block
+from kempe.sweeps.problems.columns import has_slopes
 from kempe.sweeps.problems.problem import Numbers, Problem, Run
 from kempe.sweeps.reasons import origin_of, reason
 from kempe.sweeps.storage import Storage
 
 #: Called with the numbers of runs and of failed runs, and the best objective so far.
 Progress: TypeAlias = "Callable[[int, int, float], object]"
-#: Change of a variable, as a part of its range, for a slope that the core does not give.
-_CHANGE = 1e-4
 #: Largest number of runs in a file.
 _MOST = 100_000_000
 
@@ -47,9 +45,9 @@ class Evaluations:
         self._known: dict[bytes, tuple[Floats, str]] = {}
         self._counts: dict[int, int] = {}
         self._kept, self.best, self._failed = 0, np.nan, 0
-        self._missing: dict[int, str] | None = None
-        path, plan = problem.path, problem.plan
-        self._shape = (len(plan.names), len(plan.wanted), path.size if path else 0)
+        path, columns = problem.path, problem.columns
+        self._ranges = np.array([[bound.least, bound.largest] for bound in problem.bounds])
+        self._shape = (len(problem.bounds), len(columns), path.size if path else 0)
         if storage is not None:
             for k, numbers, told, _ in storage.read(_MOST, self._width):
                 self._known[self._key(numbers)] = numbers.copy(), told
@@ -65,15 +63,7 @@ class Evaluations:
 
     def has_slopes(self, row: Floats) -> bool | None:
         """Whether the core gives some slope of each column at a point; None if the run fails."""
-        if not self.problem.plan.wanted:
-            return True
-        try:
-            _, slopes, _ = numbers_and_slopes(self.problem.plan, row)
-        except InternalError:
-            raise
-        except KempeError:
-            return None
-        return not np.isnan(slopes).all(axis=1).any()
+        return has_slopes(self.problem.columns.parts, row)
 
     def at(self, start: int, row: Floats) -> Run:
         """A run with its derivatives.
@@ -117,9 +107,9 @@ class Evaluations:
         n, count, _ = self._shape
         if self.problem.path is not None or not count:
             return [self._slopes(row)[0] for row in rows]
-        block = self.problem.plan.rows(rows, self._workers)
+        values, reasons = self.problem.columns.rows(rows, self._workers)
         none = np.full((count, n), np.nan), np.zeros(0), np.zeros((0, n))
-        pairs = zip(block.values, block.reasons, strict=True)
+        pairs = zip(values, reasons, strict=True)
         return [(None, told) if told else (Numbers(of, *none), "") for of, told in pairs]
 
     def _slopes(self, row: Floats) -> list[tuple[Numbers | None, str]]:
@@ -145,28 +135,8 @@ class Evaluations:
             plan.run(row)
         if not count:
             return Numbers(np.zeros(0), np.zeros((0, n)), residuals, of)
-        values, slopes, _ = numbers_and_slopes(plan, row)
-        slopes[:, list(self._formulas(row))] = np.nan
-        return Numbers(values, self._mended(row, slopes), residuals, of)
-
-    def _formulas(self, row: Floats) -> dict[int, str]:
-        """The variables in formulas of analyses, whose slopes are differences."""
-        if self._missing is None:
-            self._missing = in_analyses(self.problem.plan, row)
-        return self._missing
-
-    def _mended(self, row: Floats, slopes: Floats) -> Floats:
-        """Slopes with differences in place of those that the core does not give."""
-        missing = np.isnan(slopes)
-        for of in np.flatnonzero(missing.any(axis=0)):
-            bound = self.problem.bounds[of]
-            step = _CHANGE * (bound.largest - bound.least)
-            pair = np.tile(row, (2, 1))
-            pair[:, of] = np.clip(row[of] + np.array([step, -step]), bound.least, bound.largest)
-            up, down = self.problem.plan.rows(pair, self._workers).values
-            difference = (up - down) / (pair[0, of] - pair[1, of])
-            slopes[missing[:, of], of] = difference[missing[:, of]]
-        return slopes
+        values, slopes = self.problem.columns.slopes(row, self._ranges, self._workers)
+        return Numbers(values, slopes, residuals, of)
 
     def _keep(
         self, rows: Floats, computed: Sequence[tuple[Numbers | None, str]], *, slopes: bool
@@ -205,4 +175,5 @@ class Evaluations:
 def _light(run: Run) -> Run:
     """A run without derivatives, for the history."""
     none = np.zeros(0)
-    return replace(run, slope=none, residuals=(none, none), room_slopes=none)
+    pair = (none, none)
+    return replace(run, slope=none, pieces=pair, residuals=pair, room_slopes=none)
