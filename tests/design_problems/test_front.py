@@ -53,7 +53,7 @@ def test_a_front_in_two_dimensions() -> None:
         case, {"x": (-1, 1), "y": (-1, 1)}, maximize=["slide.x - y^2", "-slide.x - y^2"], seed=1
     )
     sums = best.front["slide.x - y^2"] + best.front["-slide.x - y^2"]
-    assert len(best.front) > 30 and np.abs(sums).max() < 1e-2 and np.median(-sums) < 1e-3
+    assert len(best.front) > 30 and np.abs(sums).max() < 1e-6
     assert best.front["x"].min() < -0.98 and best.front["x"].max() > 0.98
     again = kp.optimize(
         case, {"x": (-1, 1), "y": (-1, 1)}, maximize=["slide.x - y^2", "-slide.x - y^2"], seed=1

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from dataclasses import replace
+from itertools import count
 from threading import Event, Lock
 from typing import TypeAlias
 
@@ -44,19 +46,21 @@ class Evaluations:
         self._lock, self._storage, self._progress = Lock(), storage, progress
         self._known: dict[bytes, tuple[Floats, str]] = {}
         self._counts: dict[int, int] = {}
-        self._kept, self.best, self._failed = 0, np.nan, 0
+        self.best, self._failed = np.nan, 0
         path, columns = problem.path, problem.columns
         self._ranges = np.array([[bound.least, bound.largest] for bound in problem.bounds])
         self._shape = (len(problem.bounds), len(columns), path.size if path else 0)
+        kept = 0
         if storage is not None:
             for k, numbers, told, _ in storage.read(_MOST, self._width):
                 self._known[self._key(numbers)] = numbers.copy(), told
-                self._kept = k + 1
+                kept = k + 1
+        self._places = count(kept)
 
     @property
     def _width(self) -> int:
-        n, count, size = self._shape
-        return 1 + n + (count + size) * (1 + n)
+        n, width, size = self._shape
+        return 1 + n + (width + size) * (1 + n)
 
     def _key(self, numbers: Floats) -> bytes:
         return np.ascontiguousarray(numbers[: 1 + self._shape[0]]).tobytes()
@@ -64,6 +68,15 @@ class Evaluations:
     def has_slopes(self, row: Floats) -> bool | None:
         """Whether the core gives some slope of each column at a point; None if the run fails."""
         return has_slopes(self.problem.columns.parts, row)
+
+    def of(self, problem: Problem) -> Evaluations:
+        """The same runs, which another problem with the same columns judges; a history of its own.
+
+        They have no progress of their own.
+        """
+        other = copy(self)
+        other.problem, other.history, other._progress, other._counts = problem, [], None, {}
+        return other
 
     def at(self, start: int, row: Floats) -> Run:
         """A run with its derivatives.
@@ -97,18 +110,18 @@ class Evaluations:
     def _judged(self, row: Floats, numbers: Floats, told: str) -> Run:
         if told:
             return Run.failed(row, told)
-        n, count, size = self._shape
-        ends = np.cumsum([1 + n, count, count * n, size, size * n])
+        n, width, size = self._shape
+        ends = np.cumsum([1 + n, width, width * n, size, size * n])
         _, columns, slopes, residuals, of = np.split(numbers, ends[:-1])
-        parts = Numbers(columns, slopes.reshape(count, n), residuals, of.reshape(size, n))
+        parts = Numbers(columns, slopes.reshape(width, n), residuals, of.reshape(size, n))
         return self.problem.judged(row, parts)
 
     def _values(self, rows: Floats) -> list[tuple[Numbers | None, str]]:
-        n, count, _ = self._shape
-        if self.problem.path is not None or not count:
+        n, width, _ = self._shape
+        if self.problem.path is not None or not width:
             return [self._slopes(row)[0] for row in rows]
         values, reasons = self.problem.columns.rows(rows, self._workers)
-        none = np.full((count, n), np.nan), np.zeros(0), np.zeros((0, n))
+        none = np.full((width, n), np.nan), np.zeros(0), np.zeros((0, n))
         pairs = zip(values, reasons, strict=True)
         return [(None, told) if told else (Numbers(of, *none), "") for of, told in pairs]
 
@@ -127,13 +140,13 @@ class Evaluations:
             KempeError: the run fails.
         """
         plan, path = self.problem.plan, self.problem.path
-        n, count, _ = self._shape
+        n, width, _ = self._shape
         residuals, of = np.zeros(0), np.zeros((0, n))
         if path is not None:
             residuals, of = path.residuals(plan, row)
-        elif not count:  # an objective of parameters alone; the case must run all the same
+        elif not width:  # an objective of parameters alone; the case must run all the same
             plan.run(row)
-        if not count:
+        if not width:
             return Numbers(np.zeros(0), np.zeros((0, n)), residuals, of)
         values, slopes = self.problem.columns.slopes(row, self._ranges, self._workers)
         return Numbers(values, slopes, residuals, of)
@@ -152,9 +165,8 @@ class Evaluations:
         with self._lock:
             if self._storage is not None:
                 marks: NDArray[np.uint8] = np.zeros(lines.shape, np.uint8)
-                places = np.arange(self._kept, self._kept + len(lines))
+                places = np.array([next(self._places) for _ in lines])
                 self._storage.add(places, Block(lines, reasons, marks))
-            self._kept += len(lines)
             for line, told in zip(lines, reasons, strict=True):
                 self._known[self._key(line)] = line, told
 
