@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
@@ -104,6 +105,13 @@ class Search:
         if first.reason:
             return None
         solve = {"least-squares": self._squares, "slsqp": self._slsqp}.get(self.method, self._trust)
+        if len(first.residuals[0]) and self.method == "slsqp":
+            self._rounds(self._squares)  # SLSQP does not know that they are squares
+        self._rounds(solve)
+        return self.best
+
+    def _rounds(self, solve: Callable[[Floats, Run], None]) -> None:
+        """Search from the best run with new scales until nothing is gained."""
         for _ in range(_ROUNDS):
             before = self.best
             assert before is not None
@@ -114,7 +122,6 @@ class Search:
             self._snap()
             if self.best is before or self._is_close(before):
                 break
-        return self.best
 
     def _is_close(self, before: Run) -> bool:
         """Whether the best run is hardly better than an earlier one."""
@@ -192,19 +199,24 @@ class Search:
         )
 
     def _squares(self, shares: Floats, first: Run) -> None:
+        """Least squares; the excess of a limit is a further residual."""
         size = float(np.linalg.norm(first.residuals[0])) or 1.0
+
+        def of(run: Run) -> Floats:
+            return np.append(run.residuals[0] / size, np.minimum(run.room / run.sizes, 0.0))
 
         def residuals(at: Floats) -> Floats:
             run = self.at(at)
             if not run.reason:
-                return run.residuals[0] / size
-            known = (self._last or first).residuals[0] / size
-            return np.abs(known) * 10.0 + 1.0
+                return of(run)
+            return np.abs(of(self._last or first)) * 10.0 + 1.0
 
         def slopes(at: Floats) -> Floats:
             run = self.at(at)
             run = (self._last or first) if run.reason else run
-            return np.asarray(run.residuals[1] * self.problem.rates(run.row) / size)
+            excess = np.where(run.room < 0.0, 1.0 / run.sizes, 0.0)[:, None]
+            rows = np.vstack([run.residuals[1] / size, np.nan_to_num(run.room_slopes) * excess])
+            return np.asarray(rows * self.problem.rates(run.row))
 
         scipy().least_squares(
             residuals,
