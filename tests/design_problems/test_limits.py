@@ -81,3 +81,18 @@ def test_a_limit_that_occurs_twice_or_is_a_bound() -> None:
     assert dict(best.active) == {"b.vx.max <= 3": pytest.approx(6, rel=1e-4)}
     best = kp.optimize(oscillator(), {"k": (1, 9)}, maximize="k", subject_to="k <= 9")
     assert dict(best.active) == {"k <= 9": pytest.approx(1)}
+
+
+@pytest.mark.parametrize(
+    ("of", "unit"),
+    [
+        ("b.vx.max + b.vx.min", "m/s"),
+        ("b.x.max*b.vx.max", "m^2/s"),
+        ("b.vx.max/b.x.max", "1/s"),
+        ("1/b.x.max", "1/m"),
+        ("b.vx.max", "m/s"),
+    ],
+)
+def test_units_are_written_with_divisions(of: str, unit: str) -> None:
+    best = kp.optimize(oscillator(), {"k": (4, 5)}, minimize=of)
+    assert best.unit == unit

@@ -177,7 +177,7 @@ def test_wrong_requests(ask: dict[str, object], message: str) -> None:
 def test_data_beyond_the_motion_and_other_analyses() -> None:
     late = kp.Data({"t": [1, 7], "a": [0, 0]}, columns={"rod.angle": "a"})
     with pytest.raises(
-        kp.KempeError, match="from 1 to 7 s, and the run from 0 to 6 s.*change t_end"
+        kp.KempeError, match=r"from 1 to 7 s, and the run from 0 to 6 s.*change t_end"
     ):
         kp.fit(rod(), late, {"J": (0, None)})
     with pytest.raises(kp.ModelError, match="quantity of a whole run"):

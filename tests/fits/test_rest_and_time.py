@@ -37,6 +37,14 @@ def test_an_unknown_shift(mass: float, rate: float, size: float) -> None:
     assert not fit.undetermined and fit.case.model.parameters["k"] == fit.values["k"]
 
 
+def test_a_shift_of_most_of_a_period() -> None:
+    """Downhill from a shift of 0, the search would end half a period away."""
+    t = np.linspace(0, 3, 40)
+    data = kp.Data({"t": t, "x": np.cos(1.05 * (t + 5.0))}, columns={"b.x": "x"}, shift="t0")
+    fit = kp.fit(oscillator(1, 1, 1), data, {"k": (0, None), "t0": None})
+    assert dict(fit.values) == pytest.approx({"k": 1.05**2, "t0": 5.0}, rel=1e-6)
+
+
 def test_two_recordings_with_shifts_of_their_own() -> None:
     case, t = oscillator(1, 1, 1), np.linspace(0, 6, 50)
     pairs = []

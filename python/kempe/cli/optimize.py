@@ -191,7 +191,8 @@ def _show_front(console: Console, best: Optimum) -> None:
     count = len(best.candidates)
     places = sorted({round(k * (count - 1) / (_MOST_OF_FRONT - 1)) for k in range(_MOST_OF_FRONT)})
     units = [
-        _symbol(unit) for unit in (*best.units_of_objectives, *map(best.units.get, best.values))
+        _symbol(unit)
+        for unit in (*best.units_of_objectives, *(best.units[name] for name in best.values))
     ]
     rows = []
     for one in (best.candidates[k] for k in places):

@@ -68,7 +68,7 @@ def _front(axes: Axes, result: Optimum) -> None:
     points = np.array([list(one.objectives.values()) for one in result.candidates])
     points = points / [unit.divisor for unit in units]
     colour = points[:, 2] if len(problems) > 2 else style.COLOURS[0]
-    marks = axes.scatter(*points[:, :2].T, c=colour, s=14.0, zorder=3, label="front")
+    marks = axes.scatter(points[:, 0], points[:, 1], c=colour, s=14.0, zorder=3, label="front")
     labels = [
         f"{style.short(one.label, 40)} / {unit.symbol or '1'}"
         for one, unit in zip(problems, units, strict=True)

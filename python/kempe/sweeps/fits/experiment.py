@@ -91,6 +91,23 @@ class Experiment:
         assert isinstance(solution, Solution)
         return float(solution.t[0] - times[0]), float(solution.t[-1] - times[-1])
 
+    def misfits(self, row: Floats, shifts: Floats, scales: Mapping[str, float]) -> Floats:
+        """The sum of squares of model minus data for shifts of the time, from one run.
+
+        Raises:
+            KempeError: the run fails.
+        """
+        solution = self.plan.run(row)
+        assert isinstance(solution, Solution)
+        squares = np.zeros(len(shifts))
+        for name, data in self.data.values.items():
+            times = (self.data.t[name] + shifts[:, None]).ravel()
+            ends = float(solution.t[0]), float(solution.t[-1])
+            model = solution(np.clip(times, *ends))[self.expressions[name]]
+            apart = model.reshape(len(shifts), -1) - data
+            squares += ((apart / scales[name]) ** 2).sum(axis=1)
+        return squares
+
     def _at(self, times: Floats, row: Floats) -> tuple[Floats, Floats]:
         """The quantities at times, and their derivatives by the parameters of the experiment."""
         if not self.is_motion:

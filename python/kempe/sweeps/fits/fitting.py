@@ -19,6 +19,8 @@ from kempe.sweeps.variables import present
 
 #: Relative change of values at which a search ends; most runs of a search; rounds for sigma.
 _SMALL, _MOST, _ROUNDS = 1e-9, 300, 6
+#: Shifts of the time that are tried before a search, which finds only the nearest agreement.
+_SHIFTS = 201
 #: What to do about data outside of the run.
 _OUTSIDE = "change t_end or range of the analysis, or leave out the data before or after the run"
 #: Part of a width by which the ends of an interval differ from linear ones with a remark.
@@ -40,6 +42,7 @@ class Fitting:
         self.given, self.bounds, self.priors, self.robust = given, bounds, priors, robust
         self.names = list(bounds)
         self.runs = 0
+        self._shifts: dict[str, float] = {}
         self.sigma: dict[str, Any] = {}
         self.sizes: dict[str, int] = {}
         known: dict[str, list[float]] = {}
@@ -62,7 +65,8 @@ class Fitting:
         found: dict[str, float] = {}
         for one in self.given:
             found = {**present(one.case, one.plan.names), **found}
-        pairs = ((found.get(name, 0.0), *self.bounds[name]) for name in self.names)
+        found = {**dict.fromkeys(self.names, 0.0), **found, **self._shifts}
+        pairs = ((found[name], *self.bounds[name]) for name in self.names)
         return np.array([float(np.clip(x, least, largest)) for x, least, largest in pairs])
 
     def apart(self, values: Floats) -> dict[str, tuple[Floats, Floats]]:
@@ -193,6 +197,14 @@ class Fitting:
             if name is not None:
                 bounds[name] = (low, high)
         self.bounds = bounds
+        for k, name in enumerate(self.names):
+            with_it = [one for one in self.given if one.shift == k]
+            if with_it:
+                tried = np.linspace(*bounds[name], _SHIFTS)
+                apart = [
+                    one.misfits(values[list(one.places)], tried, self.scales) for one in with_it
+                ]
+                self._shifts[name] = float(tried[np.argmin(np.sum(apart, axis=0))])
 
     def _told(self, values: Floats, success: bool) -> Fit:
         scaled, raw = self.scaled(values), self._at(values)

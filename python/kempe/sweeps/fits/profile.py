@@ -96,7 +96,7 @@ class Profile:
         known = [self._residuals(values)]
 
         def whole(at: Floats) -> Floats:
-            both = values.copy()
+            both: Floats = values.copy()
             both[free] = at
             return both
 
@@ -105,12 +105,12 @@ class Profile:
             if found is None:
                 return np.abs(known[-1][0]) * 10.0 + 1.0  # type: ignore[index]
             known.append(found)
-            return found[0]
+            return np.asarray(found[0])
 
         def slopes(at: Floats) -> Floats:
             found = self._residuals(whole(at)) or known[-1]
             assert found is not None
-            return found[1][:, free]
+            return np.asarray(found[1][:, free])
 
         ends = self._bounds[free].T
         low, high = ends

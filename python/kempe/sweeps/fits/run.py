@@ -92,7 +92,8 @@ def data_of(case: Case, table: Any) -> Data:
 def _t(case: Case) -> str | None:
     """The header of the times; None for the data of a result at rest, which have none."""
     analysis = case.analyses[chosen(case, case.fit.get("analysis"))]
-    return case.fit.get("t", "t" if analysis["type"] in MOTIONS else None)
+    found: str | None = case.fit.get("t", "t" if analysis["type"] in MOTIONS else None)
+    return found
 
 
 def check(case: Case) -> str:

@@ -125,8 +125,18 @@ def with_unit(formula: Formula, unit: Units) -> Formula:
         )
         raise ModelError(f"{formula.text!r}: {error.args[0]}; {told}", hint=error.hint) from error
     single = formula.names and formula.of.strip(" `") == formula.names[0]
-    of = units[0] if single else found
+    of = units[0] if single else _divided(found)
     return replace(formula, unit="" if of == "SI" else of, worst=worst)
+
+
+def _divided(unit: str) -> str:
+    """A unit with divisions in place of negative powers: ``m/s``, not ``m*s^-1``."""
+    parts = [part.split("^-") for part in unit.split("*")]
+    above = "*".join(part[0] for part in parts if len(part) == 1)
+    below = (
+        "/" + part[0] + (f"^{part[1]}" if part[1] != "1" else "") for part in parts if part[1:]
+    )
+    return (above or "1") + "".join(below) if "^-" in unit else unit
 
 
 def _checked(name: str, model: CompiledModel, columns: set[str]) -> str:

@@ -308,7 +308,8 @@ def _told(problem: Problem, run: Run) -> str:
 def _tied(problem: Problem, run: Run) -> list[int]:
     """The pieces of the objective that are equally bad to a part of their size."""
     values = problem.sign * run.pieces[0]
-    return np.flatnonzero(values.max() - values <= _TIGHT * np.abs(values).max()).tolist()
+    near = values.max() - values <= _TIGHT * np.abs(values).max()
+    return [k for k, of in enumerate(near) if of]
 
 
 def _remarks(problem: Problem, run: Run) -> tuple[str, ...]:
@@ -352,10 +353,10 @@ def _active(problem: Problem, run: Run) -> dict[str, float]:
     aims = problem.sign * run.pieces[1][_tied(problem, run)] * rates
     scale = float(np.abs(aims).max()) or 1.0
     # the slope of the objective is a mean of those of the worst load cases, whose weights are found
-    slopes = np.vstack([np.reshape(slopes, (len(texts), -1)), -aims / scale])
+    rows = np.vstack([np.reshape(slopes, (len(texts), -1)), -aims / scale])
     ones = np.repeat([0.0, _WEIGHT], (len(texts), len(aims)))
     factors, rest = scipy().nnls(
-        np.vstack([slopes.T, ones]), np.append(np.zeros(len(shares)), _WEIGHT)
+        np.vstack([rows.T, ones]), np.append(np.zeros(len(shares)), _WEIGHT)
     )
     if rest > _REST and scale > _FLAT * abs(run.objective):  # a corner of the objective
         return dict.fromkeys(texts, float("nan"))

@@ -99,7 +99,7 @@ class Smooth:
         """The derivatives of the room."""
         run, _ = self._run(at)
         slopes = np.nan_to_num(run.room_slopes) * self._problem.rates(run.row) * self._scales
-        slopes = slopes / self._sizes[:, None]
+        slopes = np.asarray(slopes / self._sizes[:, None])
         if not self._levels:
             return slopes
         of_pieces = self._pieces(run)[1] * self._scales / self._size
