@@ -42,7 +42,7 @@ def shares(
         seed: for the points.
 
     Raises:
-        ModelError: SALib is not installed, n is no power of two, or a run fails.
+        ModelError: SALib is not installed, n is not a power of two, or a run fails.
     """
     try:
         from SALib.analyze import sobol as analyze

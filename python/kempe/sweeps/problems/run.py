@@ -62,7 +62,7 @@ def optimize(
             start: ``(least, largest)`` or ``(least, largest, "log")``, SI units and rad.
         minimize: a column of sweeps such as ``"C.force.max"``, of another analysis such as
             ``"fall:C.force.max"``, a formula of columns and parameters, or a ``kp.Path``.
-            A list of these asks for the Pareto front of all, by NSGA-II of pymoo.
+            A list of these gives the Pareto front of all, by NSGA-II of pymoo.
         maximize: a column or a formula, or a list of these.
         target: values that columns should have: ``{"slide.x.max": 0.3}``.
         subject_to: limits, comparisons of formulas: ``["motor.effort.peak <= 40"]``.
@@ -86,7 +86,13 @@ def optimize(
     """
     aims = (minimize, maximize, target)
     asked = asked_of(case, variables, *aims, subject_to, loads, starts, seed, method, analysis)
-    problem = problem_of(case, asked)
+    return _searched(problem_of(case, asked), asked, out, progress)
+
+
+def _searched(
+    problem: Problem, asked: Mapping[str, Any], out: Path | str | None, progress: Progress | None
+) -> Optimum:
+    """Solve a problem, with the runs in a file if there is one."""
     count = whole(1 if asked["starts"] is None else asked["starts"], "starts", 1, MOST_STARTS)
     seed = whole(0 if asked["seed"] is None else asked["seed"], "seed", 0, 2**31)
     check_method(problem, asked["method"])
@@ -220,7 +226,7 @@ def _nothing(runs: Evaluations) -> ModelError:
     if not told:
         return ModelError(
             f"optimize: none of {len(runs.history)} runs satisfies all limits",
-            hint="give one objective, which tells what is missed, or relax the limits",
+            hint="minimize one objective, which names the missed limits, or relax the limits",
         )
     return ModelError(
         f"optimize: all {len(runs.history)} runs within the bounds fail; most frequently: {told}",

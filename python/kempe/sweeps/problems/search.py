@@ -106,7 +106,7 @@ class Search:
             return None
         solve = {"least-squares": self._squares, "slsqp": self._slsqp}.get(self.method, self._trust)
         if len(first.residuals[0]) and self.method == "slsqp":
-            self._rounds(self._squares)  # SLSQP does not know that they are squares
+            self._rounds(self._squares)  # SLSQP does not use that they are squares
         self._rounds(solve)
         return self.best
 
