@@ -14,13 +14,14 @@ from kempe.cli.arguments import (
     AsJson,
     Changes,
     File,
+    Folder,
     Settings,
     Units,
     read_case,
     shown_in,
     stem,
 )
-from kempe.cli.console import answers, figure, heading, remarks, table
+from kempe.cli.console import answers, figure, heading, in_unit, remarks, symbol, table
 from kempe.cli.failure import document
 from kempe.cli.rewriting import save_changed
 
@@ -60,10 +61,7 @@ def optimize(  # noqa: PLR0917 - typer uses the annotations of options and argum
             "differential-evolution, in place of \\[optimize].",
         ),
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", help="Folder for results; default out/<FILE>/optimize."),
-    ] = None,
+    output: Folder = None,
     settings: Settings = None,
     anew: Annotated[
         bool, typer.Option("--anew", help="Drop the runs of an earlier search in the folder.")
@@ -143,7 +141,7 @@ def _told(case: Any) -> Iterator[Callable[[int, int, float], None]]:
 
 def _show(console: Console, best: Optimum) -> None:
     """Print the objective, the values, what limits them, and other candidates."""
-    title = f"{best.label} = {_in_unit(best.objective, best.unit)}"
+    title = f"{best.label} = {_with_unit(best.objective, best.unit)}"
     title = f"Front of {', '.join(best.labels)}" if len(best.labels) > 1 else title
     console.print(Text(title, style="bold"))
     console.print(Text(f"  {best.message}; {best.runs} runs"))
@@ -154,8 +152,8 @@ def _show(console: Console, best: Optimum) -> None:
     rows = []
     before = best.before
     for name, value in best.values.items():
-        ends = [_number(x, best.units[name]) for x in (before[name], value, *best.bounds[name])]
-        rows.append([name, *ends, _symbol(best.units[name])])
+        ends = [in_unit(x, best.units[name]) for x in (before[name], value, *best.bounds[name])]
+        rows.append([name, *ends, symbol(best.units[name])])
     table(console, ["variable", "before", "best", "least", "largest", "unit"], rows)
     if best.measures:
         heading(console, "Measures")
@@ -163,7 +161,7 @@ def _show(console: Console, best: Optimum) -> None:
             console,
             ["measure", "best", "unit"],
             [
-                [name, _number(x, best.units[name]), _symbol(best.units[name])]
+                [name, in_unit(x, best.units[name]), symbol(best.units[name])]
                 for name, x in best.measures.items()
             ],
         )
@@ -178,8 +176,8 @@ def _show(console: Console, best: Optimum) -> None:
         names = list(best.values)
         rows = [
             [
-                _in_unit(one.objective, best.unit),
-                *(_number(one.values[name], best.units[name]) for name in names),
+                _with_unit(one.objective, best.unit),
+                *(in_unit(one.values[name], best.units[name]) for name in names),
             ]
             for one in best.candidates[1 : _MOST + 1]
         ]
@@ -191,34 +189,22 @@ def _show_front(console: Console, best: Optimum) -> None:
     count = len(best.candidates)
     places = sorted({round(k * (count - 1) / (_MOST_OF_FRONT - 1)) for k in range(_MOST_OF_FRONT)})
     units = [
-        _symbol(unit)
+        symbol(unit)
         for unit in (*best.units_of_objectives, *(best.units[name] for name in best.values))
     ]
     rows = []
     for one in (best.candidates[k] for k in places):
         pairs = [*zip(one.objectives.values(), best.units_of_objectives, strict=True)]
         pairs += [(x, best.units[name]) for name, x in one.values.items()]
-        rows.append([_number(x, unit) for x, unit in pairs])
+        rows.append([in_unit(x, unit) for x, unit in pairs])
     names = [*best.labels, *best.values]
     heads = [f"{name} / {unit}" if unit else name for name, unit in zip(names, units, strict=True)]
     heading(console, f"{len(places)} of {count} points")
     table(console, heads, rows)
 
 
-def _number(value: float, unit: str) -> str:
-    from kempe.base.display_units import display
-
-    return figure(value / display(unit).divisor)
-
-
-def _symbol(unit: str) -> str:
-    from kempe.base.display_units import display
-
-    return display(unit).symbol
-
-
-def _in_unit(value: float, unit: str) -> str:
-    return f"{_number(value, unit)} {_symbol(unit)}".rstrip()
+def _with_unit(value: float, unit: str) -> str:
+    return f"{in_unit(value, unit)} {symbol(unit)}".rstrip()
 
 
 def _files(console: Console, written: list[Path]) -> None:
