@@ -110,7 +110,7 @@ def test_runs_that_fail_are_rows() -> None:
     [
         ({"minimize": "drive.effort.rms", "maximize": "k"}, "minimize and maximize at once"),
         ({}, "no objective"),
-        ({"minimize": ["drive.effort.rms", "k"]}, "2 objectives"),
+        ({"minimize": ["drive.effort.rms", "k"], "method": "slsqp"}, "and there are 2"),
         ({"minimize": "drive.effort.rms", "starts": 0}, "starts: 0"),
         ({"minimize": "drive.effort.rms", "method": "simplex"}, "unknown method 'simplex'"),
         ({"target": {"drive.effort.rms": "a"}}, "target.drive.effort.rms: 'a' is not a number"),

@@ -3,7 +3,9 @@
 import kempe as kp
 import numpy as np
 import pytest
+from design_problems.machines import lamp
 from design_problems.test_faults import dyad
+from kempe.sweeps.problems.asked import _NAMES, problem_of
 
 
 def oscillator(analysis: kp.Dynamics | None = None) -> kp.Case:
@@ -81,3 +83,43 @@ def test_a_limit_that_occurs_twice_or_is_a_bound() -> None:
     assert dict(best.active) == {"b.vx.max <= 3": pytest.approx(6, rel=1e-4)}
     best = kp.optimize(oscillator(), {"k": (1, 9)}, maximize="k", subject_to="k <= 9")
     assert dict(best.active) == {"k <= 9": pytest.approx(1)}
+
+
+@pytest.mark.parametrize(
+    ("of", "unit"),
+    [
+        ("b.vx.max + b.vx.min", "m/s"),
+        ("b.x.max*b.vx.max", "m^2/s"),
+        ("b.vx.max/b.x.max", "1/s"),
+        ("1/b.x.max", "1/m"),
+        ("b.vx.max", "m/s"),
+    ],
+)
+def test_units_are_written_with_divisions(of: str, unit: str) -> None:
+    best = kp.optimize(oscillator(), {"k": (4, 5)}, minimize=of)
+    assert best.unit == unit
+
+
+@pytest.mark.parametrize("width", [10.0, 1e3, 1e5])
+def test_wide_linear_bounds_do_not_end_a_search_early(width: float) -> None:
+    case, exact = lamp(1, 1, 9.81)
+    best = kp.optimize(
+        case, {"k": (0, width * exact["k"]), "free": (-width / 10, width / 10)},
+        minimize="over.effort.rms", method="slsqp",
+    )  # fmt: skip
+    assert best.values["k"] == pytest.approx(exact["k"], rel=1e-6)
+    assert best.values["free"] == pytest.approx(0, abs=1e-6) and best.runs < 60
+
+
+@pytest.mark.parametrize("a", [0.30002, 0.5])
+def test_a_difference_beside_values_that_do_not_close(a: float) -> None:
+    """C.x = (a² - b² + 1)/2; the rods are too short below a = 0.3."""
+    problem = problem_of(
+        dyad(0.8, 0.7), {**dict.fromkeys(_NAMES), "variables": {"a": (0.1, 0.9)},
+                         "minimize": "one.C.x"}
+    )  # fmt: skip
+    (part,) = problem.columns.parts
+    row = np.array([a])
+    values, exact = part.slopes(row, np.array([[0.1, 0.9]]), 1)
+    slopes = part._difference(row, values, (0, 0.1, 0.9), 1)
+    assert slopes == pytest.approx([a], abs=1e-4) and exact[:, 0] == pytest.approx([a], rel=1e-6)

@@ -86,8 +86,11 @@ def test_published_path() -> None:
 
 def test_a_better_path_than_the_published_one() -> None:
     path = kp.Path(POINTS, of="coupler.P", angles=ANGLES)
+    narrow = dict.fromkeys(("r1", "r2", "r3", "r4"), (0.5, 20)) | dict.fromkeys(
+        ("rcx", "rcy"), (-10, 10)
+    )
     best = kp.optimize(
-        path_generator(np.pi / 6, np.pi / 2), BOUNDS, minimize=path, subject_to=ORDER, starts=4,
+        path_generator(np.pi / 6, np.pi / 2), narrow, minimize=path, subject_to=ORDER, starts=6,
         seed=1,
     )  # fmt: skip
     objectives = [one.objective for one in best.candidates]
@@ -96,6 +99,48 @@ def test_a_better_path_than_the_published_one() -> None:
     assert any(5 * one**2 == pytest.approx(0.00262807883, rel=1e-4) for one in objectives)
     for one in best.candidates:
         assert closed_form(dict(one.values)) == pytest.approx(5 * one.objective**2, rel=1e-5)
+
+
+#: Problem 3 of the same paper: two lists of places at common angles of the crank, which are free.
+PAIRS = np.array([
+    (1.768, 2.3311, 1.9592, 2.44973), (1.947, 2.6271, 2.168, 2.675), (1.595, 2.7951, 1.821, 2.804),
+    (1.019, 2.7241, 1.244, 2.720), (0.479, 2.4281, 0.705, 2.437), (0.126, 2.0521, 0.346, 2.104),
+    (-0.001, 1.720, 0.195, 1.833), (0.103, 1.514, 0.356, 1.680), (0.442, 1.549, 0.558, 1.742),
+    (1.055, 1.905, 1.186, 2.088),
+])  # fmt: skip
+
+
+def test_two_lists_of_places_at_common_angles() -> None:
+    """The sum of squares from a pair is that from its middle, twice, and half that of its parts.
+
+    No linkage has less than the latter, 0.2749584. The best one found has 0.004 % more.
+    """
+    first, second = PAIRS[:, :2], PAIRS[:, 2:]
+    least = ((first - second) ** 2).sum() / 2
+    lengths = {"r1": 3, "r2": 1, "r3": 2.5, "r4": 2.5, "rcx": 1.5, "rcy": 1.5}
+    case = path_generator(0, 2 * np.pi)
+    free = kp.Model("free", parameters={**lengths, "x0": 0.0, "y0": 0.0, "turn": 0.0})
+    free.ground.points(A=("x0", "y0"), D=("x0 + r1*cos(turn)", "y0 + r1*sin(turn)"))
+    for element in ("crank", "rocker"):
+        ends = ("A", "B") if element == "crank" else ("D", "C")
+        free.bar(element, mass=1, length="r2" if element == "crank" else "r4", ends=ends)
+    points = {"B": (0, 0), "C": ("r3", 0), "P": ("rcx", "rcy")}
+    free.body("coupler", mass=1, inertia=1, points=points)
+    for name, i, j in (("A", "ground", "crank"), ("B", "crank", "coupler"),
+                       ("C", "coupler", "rocker"), ("D", "ground", "rocker")):  # fmt: skip
+        free.revolute(name, f"{i}.{name}", f"{j}.{name}")
+    bounds = dict.fromkeys(("r1", "r2", "r3", "r4"), (0.1, 10))
+    bounds |= dict.fromkeys(("rcx", "rcy", "x0", "y0"), (-10, 10)) | {"turn": (-np.pi, np.pi)}
+    best = kp.optimize(
+        kp.Case(free, case._start, case.analyses), bounds,
+        minimize=kp.Path((first + second) / 2, of="coupler.P"), subject_to=ORDER,
+    )  # fmt: skip
+    total = 2 * len(PAIRS) * best.objective**2 + least
+    assert best.success and best.runs < 200
+    assert least < total < least * 1.00005
+    curve = best.case.run()["turn"](np.linspace(0, 2 * np.pi, 20001))["coupler"].point("P").position
+    apart = ((curve[:, None] - first) ** 2 + (curve[:, None] - second) ** 2).sum(axis=2)
+    assert apart.min(axis=0).sum() == pytest.approx(total, rel=1e-6)
 
 
 def test_a_curve_without_timing() -> None:

@@ -176,7 +176,9 @@ def test_wrong_requests(ask: dict[str, object], message: str) -> None:
 
 def test_data_beyond_the_motion_and_other_analyses() -> None:
     late = kp.Data({"t": [1, 7], "a": [0, 0]}, columns={"rod.angle": "a"})
-    with pytest.raises(kp.KempeError, match="the motion has no value at 7: it goes from 0 to 6"):
+    with pytest.raises(
+        kp.KempeError, match=r"from 1 to 7 s, and the run from 0 to 6 s.*change t_end"
+    ):
         kp.fit(rod(), late, {"J": (0, None)})
     with pytest.raises(kp.ModelError, match="quantity of a whole run"):
         whole = kp.Data({"t": [1, 2], "a": [0, 0]}, columns={"energy.total": "a"})

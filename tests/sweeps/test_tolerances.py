@@ -112,3 +112,35 @@ def test_wrong_allocations(costs: dict[str, float], limit: float, message: str) 
 def test_an_allocation_needs_a_finite_limit(limit: object) -> None:
     with pytest.raises(kp.ModelError, match="limit: it is not a finite number"):
         kp.allocate(rest(), "mass.x", limit, {"k": 1.0})  # type: ignore[arg-type]
+
+
+def test_sobol_indices_of_a_product() -> None:
+    """f = a b² with independent normal variables; moments in closed form."""
+    m = kp.Model("slide", parameters={"a": 1.0, "b": 1.0, "idle": 2.0})
+    m.ground.points(O=(0, 0))
+    m.body("slide", mass=1, inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "slide.P")
+    m.generalized_force("spring", "guide.displacement", value="a*b^2 - guide.displacement")
+    case = kp.Case(m, None, [kp.Equilibrium(name="rest")])
+    sa, sb = 0.3, 0.4
+    found = kp.tolerances(
+        case, {"a": sa, "b": sb, "idle": 0.5}, "slide.x", n=64, seed=2, sobol=2048
+    )
+    square, fourth = 1 + sb**2, 1 + 6 * sb**2 + 3 * sb**4  # of b² and b⁴
+    variance = (1 + sa**2) * fourth - square**2
+    of_a, of_b = sa**2 * square**2, fourth - square**2
+    exact = {
+        "a": (of_a / variance, (variance - of_b) / variance),
+        "b": (of_b / variance, (variance - of_a) / variance),
+        "idle": (0.0, 0.0),
+    }
+    for name, (first, total) in exact.items():
+        share = found.sobol[name]
+        assert share.first == pytest.approx(first, abs=0.03)
+        assert share.total == pytest.approx(total, abs=0.03)
+        assert share.first_error < 0.15 and share.total_error < 0.1
+    again = kp.tolerances(case, {"a": sa, "b": sb, "idle": 0.5}, "slide.x", n=8, seed=2, sobol=2048)
+    assert again.sobol == found.sobol
+    assert not kp.tolerances(case, {"a": sa}, "slide.x", n=8).sobol
+    with pytest.raises(kp.ModelError, match="sobol: 100; must be a power of two"):
+        kp.tolerances(case, {"a": sa}, "slide.x", n=8, sobol=100)

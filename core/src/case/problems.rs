@@ -27,6 +27,7 @@ pub(super) fn optimize(
         "maximize",
         "target",
         "subject_to",
+        "loads",
         "starts",
         "seed",
         "method",
@@ -38,6 +39,7 @@ pub(super) fn optimize(
         "minimize" | "maximize" => objective(report, value),
         "target" => named(report, value, "\"slide.x.max\" = 0.3", plain),
         "subject_to" => columns::texts(report, value, ("limit", "C.force.max <= 2e4")),
+        "loads" => loads(report, value),
         "method" => word(report, value, &METHODS),
         "starts" => whole(report, value, 1.0),
         _ => whole(report, value, 0.0),
@@ -55,18 +57,15 @@ pub(super) fn optimize(
 
 /// Checks the structure of the section `[fit]`.
 pub(super) fn fit(report: &mut ProblemList, node: &Node, root: &Table) -> Vec<(String, Value)> {
-    let keys = ["t", "columns", "sigma", "parameters", "robust", "analysis"];
+    let keys = ["t", "shift", "columns", "sigma", "parameters", "robust", "analysis"];
     let section = ("fit", &keys[..], &["columns", "parameters"][..]);
     columns::read(report, (node, root), section, |report, key, value| match key {
         "t" => text(report, value, "the header of the column of times, such as \"time [s]\""),
+        "shift" => text(report, value, "the name of a parameter of the fit, such as \"t0\""),
         "columns" => named(report, value, "\"rod.angle\" = \"phi [deg]\"", |report, node| {
             text(report, node, "the header of a column, such as \"phi [deg]\"");
         }),
-        "sigma" => named(report, value, "\"rod.angle\" = \"0.5 deg\"", |report, node| {
-            if !matches!(node.data, Data::Number(_) | Data::Text(_)) {
-                wrong(report, node, "a number, or a number with a unit such as \"0.5 deg\"");
-            }
-        }),
+        "sigma" => named(report, value, "\"rod.angle\" = \"0.5 deg\"", with_unit),
         "parameters" => named(report, value, "J = \"free\"", range),
         _ => word(report, value, &LOSSES),
     })
@@ -87,6 +86,31 @@ fn named(
     }
     if table.entries.is_empty() {
         report.say(format!("an empty table; must have an entry such as {example}"));
+    }
+}
+
+/// Load cases: a list of tables of parameters, each of which may be empty.
+fn loads(report: &mut ProblemList, node: &Node) {
+    let expected = "a list of settings [{ mass = 2 }, { mass = \"5 kg\" }]";
+    let Data::List(items) = &node.data else { return wrong(report, node, expected) };
+    for (k, item) in items.iter().enumerate() {
+        report.within(&k.to_string(), |report| {
+            let Data::Table(table) = &item.data else {
+                return wrong(report, item, "a table such as { mass = 2 }");
+            };
+            for (name, value) in &table.entries {
+                report.within(name, |report| with_unit(report, value));
+            }
+        });
+    }
+    if items.is_empty() {
+        report.say(format!("an empty list; must be {expected}"));
+    }
+}
+
+fn with_unit(report: &mut ProblemList, node: &Node) {
+    if !matches!(node.data, Data::Number(_) | Data::Text(_)) {
+        wrong(report, node, "a number, or a number with a unit such as \"0.5 deg\"");
     }
 }
 

@@ -64,6 +64,8 @@ fn optimize() -> Value {
     let one = json!({ "anyOf": [{ "type": "string" }, path] });
     let list = json!({ "type": "array", "items": one.clone(), "minItems": 1 });
     let several = json!({ "anyOf": [list, one] });
+    let setting = json!({ "type": "object", "additionalProperties": with_unit() });
+    let loads = json!({ "type": "array", "items": setting, "minItems": 1 });
     let about = "A column, a formula of columns, a path, or several of these.";
     let fields = json!({
         "variables": described(by_any_name(bounds), "Parameters or values at the start, with bounds."),
@@ -71,6 +73,7 @@ fn optimize() -> Value {
         "maximize": described(several, about),
         "target": described(by_any_name(number()), "Columns, with the values that they should have."),
         "subject_to": described(texts(), "Limits such as C.force.max <= 2e4."),
+        "loads": described(loads, "Load cases: settings of parameters, for worst(column)."),
         "starts": { "type": "integer", "minimum": 1 },
         "seed": { "type": "integer", "minimum": 0 },
         "method": { "enum": METHODS },
@@ -87,11 +90,11 @@ fn fit() -> Value {
     let end = json!({ "anyOf": [{ "type": "number" }, { "const": FREE }] });
     let pair = json!({ "type": "array", "items": end, "minItems": 2, "maxItems": 2 });
     let range = json!({ "anyOf": [{ "const": FREE }, pair] });
-    let sigma = json!({ "anyOf": [{ "type": "number" }, { "type": "string" }] });
     let fields = json!({
         "t": described(text(), "Header of the column of times."),
+        "shift": described(text(), "Parameter of the fit by which the model is later than the data."),
         "columns": described(by_any_name(text()), "Quantities, with the headers of their columns."),
-        "sigma": described(by_any_name(sigma), "Standard deviations of the measured values."),
+        "sigma": described(by_any_name(with_unit()), "Standard deviations of the measured values."),
         "parameters": described(by_any_name(range), "Parameters or values at the start, with bounds."),
         "robust": { "enum": LOSSES },
         "analysis": { "type": "string", "description": ANALYSIS },
@@ -101,6 +104,11 @@ fn fit() -> Value {
         closed(object(fields), rest),
         "Values of parameters that agree best with measured data.",
     )
+}
+
+/// A number, or a text with a unit.
+fn with_unit() -> Value {
+    json!({ "anyOf": [{ "type": "number" }, { "type": "string" }] })
 }
 
 /// A table with any names that is not empty.

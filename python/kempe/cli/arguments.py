@@ -74,6 +74,10 @@ Units = Annotated[
         "in SI units and rad.",
     ),
 ]
+Folder = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", help="Folder for results; default out/<FILE>/<COMMAND>."),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print only the result, as JSON.")]
 
 

@@ -8,6 +8,7 @@ the same text as a wide terminal.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from math import isfinite
 
 from rich.console import Console
 from rich.text import Text
@@ -51,3 +52,17 @@ def _line(cells: Sequence[str], widths: Sequence[int], left: int) -> str:
 def figure(value: float) -> str:
     """A number with six digits, without a minus sign before zero."""
     return f"{value + 0.0:.6g}"
+
+
+def in_unit(value: float, unit: str) -> str:
+    """A number in its display unit; a dash if it is not finite."""
+    from kempe.base.display_units import display
+
+    return figure(value / display(unit).divisor) if isfinite(value) else "–"
+
+
+def symbol(unit: str) -> str:
+    """The symbol of a display unit."""
+    from kempe.base.display_units import display
+
+    return display(unit).symbol

@@ -9,8 +9,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.text import Text
 
-from kempe.cli.arguments import AsJson, Changes, File, Settings, Units, read_case, shown_in, stem
-from kempe.cli.console import answers, figure, heading, table
+from kempe.cli.arguments import (
+    AsJson,
+    Changes,
+    File,
+    Folder,
+    Settings,
+    Units,
+    read_case,
+    shown_in,
+    stem,
+)
+from kempe.cli.console import answers, heading, in_unit, symbol, table
 from kempe.cli.failure import document
 from kempe.cli.rewriting import save_changed
 
@@ -30,10 +40,7 @@ EXAMPLES = """Examples:
 def fit(  # noqa: PLR0917 - typer uses the annotations of options and arguments
     file: File,
     data: Annotated[Path, typer.Argument(metavar="DATA", help="CSV file with headers.")],
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", help="Folder for results; default out/<FILE>/fit."),
-    ] = None,
+    output: Folder = None,
     settings: Settings = None,
     units: Units = None,
     as_json: AsJson = False,
@@ -69,7 +76,7 @@ def _show(console: Console, found: Fit, measured: Data) -> None:
     for name, value in found.values.items():
         unit, (low, high) = found.units[name], found.intervals[name]
         numbers = (value, found.standard_errors[name], low, high)
-        rows.append([name, *(_number(x, unit) for x in numbers), _symbol(unit)])
+        rows.append([name, *(in_unit(x, unit) for x in numbers), symbol(unit)])
     table(console, ["parameter", "value", "standard error", "95 % from", "to", "unit"], rows)
     for text in (*found.undetermined, *found.remarks):
         console.print(Text(f"  {text}"))
@@ -79,25 +86,13 @@ def _show(console: Console, found: Fit, measured: Data) -> None:
             name,
             str(len(of)),
             str(measured.missing[name]),
-            _number(found.sigma[name], found.units[name]),
-            _symbol(found.units[name]),
+            in_unit(found.sigma[name], found.units[name]),
+            symbol(found.units[name]),
         ]
         for name, of in found.residuals.items()
     ]
     spread = "sigma" if measured.sigma else "sigma, from residuals"
     table(console, ["quantity", "values", "missing", spread, "unit"], rows)
-
-
-def _number(value: float, unit: str) -> str:
-    from kempe.base.display_units import display
-
-    return figure(value / display(unit).divisor) if isfinite(value) else "–"
-
-
-def _symbol(unit: str) -> str:
-    from kempe.base.display_units import display
-
-    return display(unit).symbol
 
 
 def _summary(found: Fit, measured: Data) -> dict[str, Any]:

@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.text import Text
 
-from kempe.cli.arguments import AsJson, Changes, File, Settings, Units, read_case, shown_in, stem
+from kempe.cli.arguments import (
+    AsJson,
+    Changes,
+    File,
+    Folder,
+    Settings,
+    Units,
+    read_case,
+    shown_in,
+    stem,
+)
 from kempe.cli.console import answers, figure, heading, table
 from kempe.cli.failure import document
 
@@ -47,10 +57,7 @@ def gradient(  # noqa: PLR0917 - typer uses the annotations of options and argum
         str | None,
         typer.Option("--analysis", metavar="NAME", help="The analysis; the last one by default."),
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", help="Folder for results; default out/<FILE>/gradient."),
-    ] = None,
+    output: Folder = None,
     settings: Settings = None,
     units: Units = None,
     as_json: AsJson = False,

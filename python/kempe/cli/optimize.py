@@ -14,13 +14,14 @@ from kempe.cli.arguments import (
     AsJson,
     Changes,
     File,
+    Folder,
     Settings,
     Units,
     read_case,
     shown_in,
     stem,
 )
-from kempe.cli.console import answers, figure, heading, remarks, table
+from kempe.cli.console import answers, figure, heading, in_unit, remarks, symbol, table
 from kempe.cli.failure import document
 from kempe.cli.rewriting import save_changed
 
@@ -39,6 +40,8 @@ EXAMPLES = """Examples:
 """
 #: Most candidates that are printed.
 _MOST = 5
+#: Most points of a front that are printed.
+_MOST_OF_FRONT = 9
 
 
 def optimize(  # noqa: PLR0917 - typer uses the annotations of options and arguments
@@ -58,10 +61,7 @@ def optimize(  # noqa: PLR0917 - typer uses the annotations of options and argum
             "differential-evolution, in place of \\[optimize].",
         ),
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", help="Folder for results; default out/<FILE>/optimize."),
-    ] = None,
+    output: Folder = None,
     settings: Settings = None,
     anew: Annotated[
         bool, typer.Option("--anew", help="Drop the runs of an earlier search in the folder.")
@@ -109,7 +109,11 @@ def _write(best: Optimum, file: Path, settings: list[str] | None, folder: Path) 
     save_changed(best.case, file, best.values, settings, path)
     best.to_csv(folder / "history.csv")
     figures = save(optimization_pages(best), folder / "figures")
-    return [path, folder / "history.csv", *figures]
+    tables = [folder / "history.csv"]
+    if len(best.labels) > 1:
+        tables.append(folder / "front.csv")
+        best.front_to_csv(tables[-1])
+    return [path, *tables, *figures]
 
 
 @contextmanager
@@ -137,15 +141,19 @@ def _told(case: Any) -> Iterator[Callable[[int, int, float], None]]:
 
 def _show(console: Console, best: Optimum) -> None:
     """Print the objective, the values, what limits them, and other candidates."""
-    title = f"{best.label} = {_in_unit(best.objective, best.unit)}"
+    title = f"{best.label} = {_with_unit(best.objective, best.unit)}"
+    title = f"Front of {', '.join(best.labels)}" if len(best.labels) > 1 else title
     console.print(Text(title, style="bold"))
     console.print(Text(f"  {best.message}; {best.runs} runs"))
+    if len(best.labels) > 1:
+        _show_front(console, best)
+        return
     heading(console, "Variables")
     rows = []
     before = best.before
     for name, value in best.values.items():
-        ends = [_number(x, best.units[name]) for x in (before[name], value, *best.bounds[name])]
-        rows.append([name, *ends, _symbol(best.units[name])])
+        ends = [in_unit(x, best.units[name]) for x in (before[name], value, *best.bounds[name])]
+        rows.append([name, *ends, symbol(best.units[name])])
     table(console, ["variable", "before", "best", "least", "largest", "unit"], rows)
     if best.measures:
         heading(console, "Measures")
@@ -153,7 +161,7 @@ def _show(console: Console, best: Optimum) -> None:
             console,
             ["measure", "best", "unit"],
             [
-                [name, _number(x, best.units[name]), _symbol(best.units[name])]
+                [name, in_unit(x, best.units[name]), symbol(best.units[name])]
                 for name, x in best.measures.items()
             ],
         )
@@ -161,33 +169,42 @@ def _show(console: Console, best: Optimum) -> None:
         heading(console, "What limits it")
         about = "the objective gains per SI unit"
         table(console, ["bound or limit", about], [[k, figure(x)] for k, x in best.active.items()])
+    for text in best.remarks:
+        console.print(Text(f"  {text}"))
     if len(best.candidates) > 1:
         heading(console, "Other candidates")
         names = list(best.values)
         rows = [
             [
-                _in_unit(one.objective, best.unit),
-                *(_number(one.values[name], best.units[name]) for name in names),
+                _with_unit(one.objective, best.unit),
+                *(in_unit(one.values[name], best.units[name]) for name in names),
             ]
             for one in best.candidates[1 : _MOST + 1]
         ]
         table(console, [best.label, *names], rows)
 
 
-def _number(value: float, unit: str) -> str:
-    from kempe.base.display_units import display
+def _show_front(console: Console, best: Optimum) -> None:
+    """Print points that are evenly spread over the front; ``front.csv`` has all."""
+    count = len(best.candidates)
+    places = sorted({round(k * (count - 1) / (_MOST_OF_FRONT - 1)) for k in range(_MOST_OF_FRONT)})
+    units = [
+        symbol(unit)
+        for unit in (*best.units_of_objectives, *(best.units[name] for name in best.values))
+    ]
+    rows = []
+    for one in (best.candidates[k] for k in places):
+        pairs = [*zip(one.objectives.values(), best.units_of_objectives, strict=True)]
+        pairs += [(x, best.units[name]) for name, x in one.values.items()]
+        rows.append([in_unit(x, unit) for x, unit in pairs])
+    names = [*best.labels, *best.values]
+    heads = [f"{name} / {unit}" if unit else name for name, unit in zip(names, units, strict=True)]
+    heading(console, f"{len(places)} of {count} points")
+    table(console, heads, rows)
 
-    return figure(value / display(unit).divisor)
 
-
-def _symbol(unit: str) -> str:
-    from kempe.base.display_units import display
-
-    return display(unit).symbol
-
-
-def _in_unit(value: float, unit: str) -> str:
-    return f"{_number(value, unit)} {_symbol(unit)}".rstrip()
+def _with_unit(value: float, unit: str) -> str:
+    return f"{in_unit(value, unit)} {symbol(unit)}".rstrip()
 
 
 def _files(console: Console, written: list[Path]) -> None:
@@ -203,8 +220,14 @@ def _summary(best: Optimum) -> dict[str, Any]:
         "values": dict(best.values),
         "measures": dict(best.measures),
         "active": dict(best.active),
+        "remarks": list(best.remarks),
         "candidates": [
-            {"objective": one.objective, "values": dict(one.values)} for one in best.candidates
+            {
+                "objective": one.objective,
+                "objectives": dict(one.objectives),
+                "values": dict(one.values),
+            }
+            for one in best.candidates
         ],
         "runs": best.runs,
         "success": best.success,

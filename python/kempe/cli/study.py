@@ -9,7 +9,17 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.text import Text
 
-from kempe.cli.arguments import AsJson, Changes, File, Settings, Units, read_case, shown_in, stem
+from kempe.cli.arguments import (
+    AsJson,
+    Changes,
+    File,
+    Folder,
+    Settings,
+    Units,
+    read_case,
+    shown_in,
+    stem,
+)
 from kempe.cli.console import answers, heading, remarks, table
 from kempe.cli.failure import document
 
@@ -34,10 +44,7 @@ def study(  # noqa: PLR0917 - typer distinguishes options by their annotations
     analysis: Annotated[
         str | None, typer.Option("--analysis", help="Name of the analysis; by default the first.")
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", help="Folder for results; default out/<FILE>/study."),
-    ] = None,
+    output: Folder = None,
     settings: Settings = None,
     units: Units = None,
     as_json: AsJson = False,

@@ -11,7 +11,17 @@ import typer
 from rich.progress import BarColumn, Progress, TextColumn
 from rich.text import Text
 
-from kempe.cli.arguments import AsJson, Changes, File, Settings, Units, read_case, shown_in, stem
+from kempe.cli.arguments import (
+    AsJson,
+    Changes,
+    File,
+    Folder,
+    Settings,
+    Units,
+    read_case,
+    shown_in,
+    stem,
+)
 from kempe.cli.console import answers, figure, heading, remarks, table
 from kempe.cli.failure import document
 from kempe.errors import FileError, ModelError
@@ -52,10 +62,7 @@ def sweep(  # noqa: PLR0917 - typer uses the annotations of options and argument
         str | None,
         typer.Option("--analysis", metavar="NAME", help="The analysis; the last one by default."),
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", help="Folder for results; default out/<FILE>/sweep."),
-    ] = None,
+    output: Folder = None,
     settings: Settings = None,
     workers: Annotated[
         int | None, typer.Option("--workers", help="Threads; one for each processor by default.")

@@ -34,6 +34,8 @@ _WIDE = 50.0
 def optimization(result: Optimum) -> Figure:
     """Draw the runs of a search, its candidates between the bounds, and the mechanism.
 
+    Several objectives have their front in place of the runs.
+
     Args:
         result: the result of ``kp.optimize``.
 
@@ -48,7 +50,7 @@ def optimization(result: Optimum) -> Figure:
         made = style.figure(above + _BELOW)
         upper, lower = made.subfigures(2, 1, height_ratios=(above, _BELOW))  # type: ignore[misc]
         left, right = upper.subplots(1, 2, width_ratios=(1.0, 1.1))
-        _history(left, result)
+        (_front if result._problem.others else _history)(left, result)
         _candidates(right, result)
         _mechanisms(lower.subplots(1, 2), result)
     return made
@@ -57,6 +59,25 @@ def optimization(result: Optimum) -> Figure:
 def optimization_pages(result: Optimum) -> list[Page]:
     """The figure that ``kempe optimize`` writes."""
     return [Page(0, "optimization", "optimization", lambda: optimization(result), key=True)]
+
+
+def _front(axes: Axes, result: Optimum) -> None:
+    """The first two objectives of the front; a third one as colour."""
+    problems = result._problem.objectives
+    units = [display(one.unit) for one in problems]
+    points = np.array([list(one.objectives.values()) for one in result.candidates])
+    points = points / [unit.divisor for unit in units]
+    colour = points[:, 2] if len(problems) > 2 else style.COLOURS[0]
+    marks = axes.scatter(points[:, 0], points[:, 1], c=colour, s=14.0, zorder=3, label="front")
+    labels = [
+        f"{style.short(one.label, 40)} / {unit.symbol or '1'}"
+        for one, unit in zip(problems, units, strict=True)
+    ]
+    if len(problems) > 2:
+        axes.figure.colorbar(marks, ax=axes, label=labels[2])
+    axes.set_xlabel(labels[0])
+    axes.set_ylabel(labels[1])
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0))
 
 
 def _history(axes: Axes, result: Optimum) -> None:

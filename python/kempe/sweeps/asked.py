@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 #: The arguments that the section ``[sweep]`` can have too.
 _NAMES = ("variables", "measures", "design", "n", "seed", "analysis")
 #: The place in a section with which a message begins; sections of problems have more keys.
-_OTHERS = "minimize maximize target subject_to starts method t columns sigma parameters robust"
-_PLACE = re.compile(rf"({'|'.join((*_NAMES, *_OTHERS.split()))})(\.[^:]+)?(?=: )")
+_OTHERS = "minimize maximize target subject_to loads starts method t shift columns sigma parameters"
+_PLACE = re.compile(rf"({'|'.join((*_NAMES, *_OTHERS.split(), 'robust'))})(\.[^:]+)?(?=: )")
 
 
 def asked_of(case: Case, *given: Any) -> dict[str, Any]:

@@ -27,6 +27,7 @@ from kempe.model.measure_infos import measure_info, parameter_unit
 from kempe.model.values import numbers
 from kempe.sweeps.numbers import reads_quantities
 from kempe.sweeps.reasons import origin_of, reason
+from kempe.sweeps.variables import changed
 from kempe.sweeps.wanted import Number, Wanted
 
 if TYPE_CHECKING:
@@ -105,11 +106,7 @@ class Plan:
         Raises:
             ModelError: the model is impossible with these values.
         """
-        values = [float(x) for x in row]
-        parameters = {n: x for n, x in zip(self.names, values, strict=True) if "." not in n}
-        start = {n: x for n, x in zip(self.names, values, strict=True) if "." in n}
-        case = self.case.with_parameters(parameters) if parameters else self.case
-        return case.with_start(start) if start else case
+        return changed(self.case, dict(zip(self.names, map(float, row), strict=True)))
 
     def run(self, row: Floats) -> Solution | Result:
         """The result of the analysis with the values of a row.

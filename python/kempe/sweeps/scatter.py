@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,10 +16,12 @@ from kempe.model.values import mapping, numbers, refuse
 from kempe.sweeps.asked import plan_of
 from kempe.sweeps.gradients.run import gradient, in_analyses, numbers_and_slopes
 from kempe.sweeps.plan import Plan
-from kempe.sweeps.problems.asked import limits_of, with_units
+from kempe.sweeps.problems.asked import limits_of, units_of, with_units
+from kempe.sweeps.problems.columns import Part
 from kempe.sweeps.problems.formulas import Limit, Parameters
 from kempe.sweeps.result import SweepResult
 from kempe.sweeps.run import sweep
+from kempe.sweeps.sobol import Share, shares
 from kempe.sweeps.variables import present
 
 if TYPE_CHECKING:
@@ -49,6 +51,8 @@ class Tolerances:
             deviations in the direction of its slope; NaN if the mechanism fails there.
         yield_: share of the variants that satisfy all limits, NaN without limits; variants that
             fail satisfy none.
+        sobol: the shares of the variables in the variance by name, as (first, total, first_error,
+            total_error): by the variable alone and with all interactions; empty without ``sobol=``.
     """
 
     measure: str
@@ -62,6 +66,7 @@ class Tolerances:
     sample: SweepResult
     worst_case: tuple[float, float] = (np.nan, np.nan)
     yield_: float = np.nan
+    sobol: Mapping[str, Share] = field(default_factory=dict)
 
     @property
     def remark(self) -> str:
@@ -87,6 +92,7 @@ def tolerances(
     seed: int | None = None,
     analysis: str | None = None,
     subject_to: str | Sequence[str] = (),
+    sobol: int | None = None,
     **options: Any,
 ) -> Tolerances:
     """The scatter of a measure: by random variants, and to first order.
@@ -104,6 +110,8 @@ def tolerances(
         seed: as for ``kp.sweep``.
         analysis: as for ``kp.sweep``.
         subject_to: limits as for ``kp.optimize``, for the yield.
+        sobol: number of base points for Sobol indices by SALib, a power of two such as 256; they
+            take sobol × (number of variables + 2) runs.
         **options: ``workers``, ``scheduler``, ``out`` and ``progress`` of ``kp.sweep``, for the
             random variants.
 
@@ -115,9 +123,13 @@ def tolerances(
     middle = present(case, given)  # the sweep refuses unknown names
     spread = {name: {"normal": [middle[name], x]} for name, x in given.items()}
     read = limits_of(case, subject_to, analysis)
+    for text in (text for one in read for text in one.room.names if ":" in text or "(" in text):
+        told = f"subject_to: {text}: the limits of a yield are those of one analysis and load case"
+        raise ModelError(told, hint="leave it out, or name its analysis: analysis='NAME'")
     measures = list(dict.fromkeys([measure, *(name for one in read for name in one.room.columns)]))
     plan = plan_of(case, {"measures": measures, "analysis": analysis}, given)
-    limits = with_units(read, plan)
+    of_all = Part(plan, tuple(one.text for one in plan.wanted), "", 0)
+    limits = with_units(read, units_of([of_all], of_all.parameters))
     sample = sweep(
         case, spread, measures, design="random", n=n, seed=seed, analysis=analysis, **options
     )
@@ -127,20 +139,22 @@ def tolerances(
         nominal, slopes = _slopes(case, middle, widths, (measure, analysis))
     corners = _corners(plan, middle, slopes, widths)
     held = _share(sample, plan, limits) if limits else np.nan
-    return _told(sample, (nominal, slopes, widths), (corners, held))
+    first = replace(plan, wanted=plan.wanted[:1])
+    indices = {} if sobol is None else shares(first, middle, widths.tolist(), sobol, seed or 0)
+    return _told(sample, (nominal, slopes, widths), (corners, held, indices))
 
 
 def _told(
     sample: SweepResult,
     first: tuple[float, Floats, Floats],
-    rest: tuple[tuple[float, float], float],
+    rest: tuple[tuple[float, float], float, Mapping[str, Share]],
 ) -> Tolerances:
     """The scatter of the first measure of a sample.
 
     Args:
         sample: the random variants.
         first: the value of the case, the slopes, and the standard deviations of the variables.
-        rest: the worst case and the yield.
+        rest: the worst case, the yield and the Sobol indices.
 
     Raises:
         ModelError: fewer than two variants succeed.
@@ -148,7 +162,7 @@ def _told(
     (nominal, slopes, widths), names = first, [one.name for one in sample.variables]
     variances = (slopes * widths) ** 2
     total = float(variances.sum())
-    shares = variances / total if total > 0.0 else np.zeros(len(widths))
+    parts = variances / total if total > 0.0 else np.zeros(len(widths))
     measure = sample.measures[0]
     found = sample[measure][sample.succeeded]
     if len(found) < 2:
@@ -165,7 +179,7 @@ def _told(
         float(found.std(ddof=1)),
         float(np.sqrt(total)),
         dict(zip(names, slopes.tolist(), strict=True)),
-        dict(zip(names, shares.tolist(), strict=True)),
+        dict(zip(names, parts.tolist(), strict=True)),
         sample,
         *rest,
     )

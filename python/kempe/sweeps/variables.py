@@ -113,6 +113,18 @@ def check_names(case: Case, names: Collection[str], form: str) -> None:
             raise unknown("variable", name, known)
 
 
+def changed(case: Case, values: Mapping[str, Any]) -> Case:
+    """The case with other values of parameters and of coordinates and rates at the start.
+
+    Raises:
+        ModelError: the model is impossible with these values.
+    """
+    parameters = {name: x for name, x in values.items() if "." not in name}
+    start = {name: x for name, x in values.items() if "." in name}
+    case = case.with_parameters(parameters) if parameters else case
+    return case.with_start(start) if start else case
+
+
 def present(case: Case, names: Iterable[str]) -> dict[str, float]:
     """The values of parameters, and of coordinates and rates at the start, in the case.
 

@@ -23,6 +23,8 @@ from kempe.model.values import mapping, refuse
 _HEADER = re.compile(r"\s*(.*?)\s*\[\s*(.*?)\s*\]\s*")
 #: Units in headers that mean a plain number.
 _PLAIN = ("", "1", "-", "–")
+#: The unit of frequencies.
+_HERTZ = "Hz"
 
 
 class Data(metaclass=Explained):
@@ -30,11 +32,14 @@ class Data(metaclass=Explained):
 
     Args:
         table: a CSV file, a data frame, or a mapping of headers to arrays.
-        t: header of the times; for a motion over a quantity, of its values.
+        t: header of the times; for a motion over a quantity, of its values; None for numbers of a
+            result at rest, such as frequencies, of which each row is a measurement.
         columns: headers by quantity: ``{"rod.angle": "phi [deg]"}``. The header is as written in
             the table; a unit in brackets is converted, otherwise values are in SI units and rad.
         sigma: standard deviations of the measured values by quantity: numbers in SI units and rad,
             or texts with a unit, such as ``"0.5 deg"``. Without it, they follow from the residuals.
+        shift: name of a parameter of the fit, in seconds: the model is at this time later than the
+            time of the data. Data with the same name have the same shift.
 
     Attributes:
         t: the times of each quantity, without those whose value is missing.
@@ -49,9 +54,10 @@ class Data(metaclass=Explained):
     def __init__(
         self,
         table: Path | str | Mapping[str, Any] | Any,
-        t: str = "t",
+        t: str | None = "t",
         columns: Mapping[str, str] | None = None,
         sigma: Mapping[str, float | str] | None = None,
+        shift: str | None = None,
     ) -> None:
         given = _table(table)
         asked = mapping(columns or {}, "columns", "{'rod.angle': 'phi [deg]'}")
@@ -59,10 +65,14 @@ class Data(metaclass=Explained):
             hint = f"the table has {few(given)}"
             raise ModelError("columns: there are none", hint=hint)
         self.header_of_t = t
-        times, self._unit_of_t = _column(given, t, "time")
+        if shift is not None and (not isinstance(shift, str) or not shift or "." in shift):
+            refuse("shift", f"{shift!r}; must be the name of a parameter of the fit, such as 't0'")
+        self.shift = shift
+        times, self._unit_of_t = (None, "") if t is None else _column(given, t, "time")
         times_found, values, units, missing = {}, {}, {}, {}
         for name, header in asked.items():
             found, units[name] = _column(given, header, f"column of {name}")
+            times = np.zeros(found.shape) if times is None else times
             if found.shape != times.shape:
                 refuse(f"columns.{name}", f"{len(found)} values for {len(times)} times")
             good = np.isfinite(found) & np.isfinite(times)
@@ -97,7 +107,7 @@ class Data(metaclass=Explained):
         pairs = [(f"columns.{name}", self._units[name], units[name]) for name in self.values]
         pairs += [(f"sigma.{name}", of, units[name]) for name, of in self._units_of_sigma.items()]
         for path, own, needed in [*pairs, ("t", self._unit_of_t, of_t)]:
-            if own:
+            if own not in ("", needed):
                 _refuse_other(path, own, needed)
 
     def __len__(self) -> int:
@@ -164,8 +174,8 @@ def _column(given: Mapping[str, Any], header: str, what: str) -> tuple[Floats, s
     except (TypeError, ValueError):
         refuse(f"column {names[0]!r}", "its values are not numbers")
     unit = _split(names[0])[1]
-    if unit in _PLAIN:
-        return values, ""
+    if unit in (*_PLAIN, _HERTZ):  # not a unit of formulas, where it could be rad/s or rev/s
+        return values, unit if unit == _HERTZ else ""
     try:
         factor, of = (
             _core.formula_value(f"1 {unit}", [], [])[0],

@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 
 from kempe.base.arrays import Floats
+from kempe.base.display_units import display
 from kempe.errors import InternalError, KempeError, ModelError
 from kempe.sweeps.fits.experiment import Experiment
+from kempe.sweeps.fits.profile import Profile
 from kempe.sweeps.fits.result import Fit, remarks_on
 from kempe.sweeps.fits.undetermined import determined
 from kempe.sweeps.problems.search import scipy
@@ -17,6 +19,12 @@ from kempe.sweeps.variables import present
 
 #: Relative change of values at which a search ends; most runs of a search; rounds for sigma.
 _SMALL, _MOST, _ROUNDS = 1e-9, 300, 6
+#: Shifts of the time that are tried before a search, which finds only the nearest agreement.
+_SHIFTS = 201
+#: What to do about data outside of the run.
+_OUTSIDE = "change t_end or range of the analysis, or leave out the data before or after the run"
+#: Part of a width by which the ends of an interval differ from linear ones with a remark.
+_BENT = 0.1
 #: The probability of an interval.
 _PROBABILITY = 0.95
 
@@ -34,6 +42,7 @@ class Fitting:
         self.given, self.bounds, self.priors, self.robust = given, bounds, priors, robust
         self.names = list(bounds)
         self.runs = 0
+        self._shifts: dict[str, float] = {}
         self.sigma: dict[str, Any] = {}
         self.sizes: dict[str, int] = {}
         known: dict[str, list[float]] = {}
@@ -56,6 +65,7 @@ class Fitting:
         found: dict[str, float] = {}
         for one in self.given:
             found = {**present(one.case, one.plan.names), **found}
+        found = {**dict.fromkeys(self.names, 0.0), **found, **self._shifts}
         pairs = ((found[name], *self.bounds[name]) for name in self.names)
         return np.array([float(np.clip(x, least, largest)) for x, least, largest in pairs])
 
@@ -157,6 +167,7 @@ class Fitting:
         Raises:
             KempeError: the case itself fails.
         """
+        self._reached()
         values = self.start()
         self.apart(values)  # an error of the first run is raised
         for _ in range(_ROUNDS):
@@ -166,6 +177,34 @@ class Fitting:
             if self.starved or not self._estimate(values) or not several:
                 break
         return self._told(values, found.status > 0)
+
+    def _reached(self) -> None:
+        """Bounds of the shifts with which all data are within the runs.
+
+        Raises:
+            ModelError: there are none.
+        """
+        values, bounds = self.start(), dict(self.bounds)
+        for one in self.given:
+            if not one.is_motion:
+                continue
+            least, largest = one.reach(values[list(one.places)])
+            name = None if one.shift is None else self.names[one.shift]
+            own = (0.0, 0.0) if name is None else bounds[name]
+            low, high = max(least, own[0]), min(largest, own[1])
+            if low > high or (name is not None and low == high):
+                raise ModelError(_outside(one, (least, largest), name), hint=_OUTSIDE)
+            if name is not None:
+                bounds[name] = (low, high)
+        self.bounds = bounds
+        for k, name in enumerate(self.names):
+            with_it = [one for one in self.given if one.shift == k]
+            if with_it:
+                tried = np.linspace(*bounds[name], _SHIFTS)
+                apart = [
+                    one.misfits(values[list(one.places)], tried, self.scales) for one in with_it
+                ]
+                self._shifts[name] = float(tried[np.argmin(np.sum(apart, axis=0))])
 
     def _told(self, values: Floats, success: bool) -> Fit:
         scaled, raw = self.scaled(values), self._at(values)
@@ -184,14 +223,15 @@ class Fitting:
         correlation[free, :] = correlation[:, free] = np.nan
         named = dict(zip(self.names, values.tolist(), strict=True))
         freedom = max(1, len(residuals) - len(self.names))
-        width = _quantile(freedom, exact=self.given_sigma == set(self.sizes)) * errors
-        intervals = {}
-        for k, (name, (least, largest)) in enumerate(self.bounds.items()):
-            low, high = values[k] - width[k], values[k] + width[k]
-            intervals[name] = (float(max(low, least)), float(min(high, largest)))
+        quantile = _quantile(freedom, exact=self.given_sigma == set(self.sizes))
+        intervals, bent = self._intervals(values, covariance, quantile)
         parts = {name: of / self.sigma[name] for name, (of, _) in raw.items()}
         is_given = self.given_sigma == set(self.sizes)
         remarks = remarks_on(named, self.bounds, parts, (is_given, len(self.names)))
+        remarks += [
+            f"the interval of {name} is that of the profile likelihood; a linear one would mislead"
+            for name in bent
+        ]
         sigma = dict(self.sigma)
         if self.starved:
             sigma |= {name: np.nan for name in sigma if name not in self.given_sigma}
@@ -209,6 +249,30 @@ class Fitting:
             (success, self.runs),
         )
 
+    def _intervals(
+        self, values: Floats, covariance: Floats, quantile: float
+    ) -> tuple[dict[str, tuple[float, float]], list[str]]:
+        """The intervals within the bounds, and the parameters whose linear ones mislead."""
+        ends = np.array(list(self.bounds.values()))
+        profile = Profile(self.scaled, values, ends, quantile)
+        intervals, bent = {}, []
+        for k, name in enumerate(self.names):
+            width = quantile * np.sqrt(covariance[k, k])
+            pair = np.array([values[k] - width, values[k] + width])
+            is_inside = ends[k, 0] < values[k] < ends[k, 1]
+            if np.isfinite(width) and width > 0.0 and not self.robust and is_inside:
+                along = covariance[:, k] / covariance[k, k]
+                along = np.where(np.isfinite(along), along, 0.0)
+                linear = np.clip(pair, *ends[k])
+                beyond = (linear != pair).any()
+                if beyond or any(profile.misleads(k, x, along) for x in linear):
+                    exact = [profile.end(k, x) for x in (-width, width)]
+                    if not np.allclose(exact, linear, rtol=0.0, atol=_BENT * width):
+                        bent.append(name)
+                    pair = np.array(exact)
+            intervals[name] = (float(max(pair[0], ends[k, 0])), float(min(pair[1], ends[k, 1])))
+        return intervals, bent
+
     def _magnitudes(self) -> Floats:
         """How large the parameters are before the fit; 0 where nothing is known."""
         widths = [largest - least for least, largest in self.bounds.values()]
@@ -222,6 +286,17 @@ class Fitting:
         spread = float(slope.var()) / max(mean, 1e-300) ** 2
         more = 1.0 + len(self.names) / count * spread  # for few residuals
         return more**2 * float(psi @ psi) / freedom / max(mean, 1e-300) ** 2
+
+
+def _outside(one: Experiment, room: tuple[float, float], name: str | None) -> str:
+    """Data that are outside of the run, in words."""
+    first, last = one.times[0], one.times[-1]
+    begin, end = first + room[0], last + room[1]
+    unit = display(one.unit_of_t)
+    ends = [f"{x / unit.divisor:.6g}" for x in (first, last, begin, end)]
+    told = f"data: they go from {ends[0]} to {ends[1]} {unit.symbol}".rstrip()
+    told = f"{told}, and the run from {ends[2]} to {ends[3]} {unit.symbol}".rstrip()
+    return f"{told}, which no {name} within its bounds can join" if name else told
 
 
 def _given_sigma(given: Sequence[Experiment], name: str) -> Any:

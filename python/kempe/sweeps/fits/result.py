@@ -14,6 +14,7 @@ import numpy as np
 from kempe.base import files
 from kempe.base.arguments import explain_methods
 from kempe.base.arrays import Floats, fixed
+from kempe.sweeps.variables import changed
 
 if TYPE_CHECKING:
     from kempe.case import Case
@@ -98,11 +99,7 @@ class Fit:
 
 def _changed(one: Experiment, values: Mapping[str, float]) -> Case:
     """The case of an experiment with the values of its parameters."""
-    own = {name: values[name] for name in one.plan.names}
-    parameters = {name: x for name, x in own.items() if "." not in name}
-    start = {name: x for name, x in own.items() if "." in name}
-    case = one.case.with_parameters(parameters) if parameters else one.case
-    return case.with_start(start) if start else case
+    return changed(one.case, {name: values[name] for name in one.plan.names})
 
 
 def remarks_on(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,8 +18,10 @@ from kempe.sweeps.fits.data import Data
 from kempe.sweeps.fits.experiment import experiments
 from kempe.sweeps.fits.fitting import Fitting
 from kempe.sweeps.fits.result import Fit
+from kempe.sweeps.plan import chosen
 from kempe.sweeps.problems.search import scipy
 from kempe.sweeps.variables import check_names
+from kempe.sweeps.wanted import MOTIONS
 
 if TYPE_CHECKING:
     from kempe.case import Case
@@ -63,7 +65,7 @@ def fit(
     if isinstance(data, str | Path):
         data = data_of(case, data)
     bounds = bounds_of(parameters or section.get("parameters"))
-    check_names_in(case, data, list(bounds))
+    check_names_in(case, data, bounds)
     robust = robust or section.get("robust")
     if robust is not None:
         one_of("robust", robust, LOSSES)
@@ -84,7 +86,14 @@ def data_of(case: Case, table: Any) -> Data:
     section = case.fit
     if not section:
         raise ModelError("the case has no section [fit]", hint="pass a kp.Data, or declare [fit]")
-    return Data(table, section.get("t", "t"), section["columns"], section.get("sigma"))
+    return Data(table, _t(case), section["columns"], section.get("sigma"), section.get("shift"))
+
+
+def _t(case: Case) -> str | None:
+    """The header of the times; None for the data of a result at rest, which have none."""
+    analysis = case.analyses[chosen(case, case.fit.get("analysis"))]
+    found: str | None = case.fit.get("t", "t" if analysis["type"] in MOTIONS else None)
+    return found
 
 
 def check(case: Case) -> str:
@@ -100,9 +109,10 @@ def check(case: Case) -> str:
     try:
         bounds = bounds_of(section.get("parameters"))
         headers = {header: [0.0, 1.0] for header in section["columns"].values()}
-        table = {section.get("t", "t"): [0.0, 1.0], **headers}
-        data = Data(table, section.get("t", "t"), section["columns"], section.get("sigma"))
-        check_names(case, list(bounds), "{'J': None}")
+        table = {str(_t(case)): [0.0, 1.0], **headers}
+        columns, sigma, shift = section["columns"], section.get("sigma"), section.get("shift")
+        data = Data(table, _t(case), columns, sigma, shift)
+        check_names(case, [name for name in bounds if name != shift], "{'J': None}")
         experiments(case, data, list(bounds), section.get("analysis"))
     except ModelError as error:
         error.args = (located(case, "fit", str(error.args[0])), *error.args[1:])
@@ -140,18 +150,19 @@ def _bounds(name: str, of: Any) -> tuple[float, float]:
     return ends[0], ends[1]
 
 
-def check_names_in(case: Case, data: Any, names: Sequence[str]) -> None:
-    """Refuse a parameter that no case has.
+def check_names_in(case: Case, data: Any, names: Iterable[str]) -> None:
+    """Refuse a parameter that no case has, and no data as their shift.
 
     Raises:
         ModelError: there is one.
     """
-    if not isinstance(data, list | tuple):
-        check_names(case, names, "{'J': None}")
-        return
-    cases = [pair[0] for pair in data if hasattr(pair[0], "model")] or [case]
+    pairs = data if isinstance(data, list | tuple) else [(case, data)]
+    found = [pair for pair in pairs if isinstance(pair, list | tuple) and len(pair) == 2]
+    shifts = {getattr(of, "shift", None) for _, of in found}
+    cases = [own for own, _ in found if hasattr(own, "model")] or [case]
     for name in names:
-        if "." not in name and not any(name in one.model.parameters for one in cases):
+        known = "." in name or any(name in one.model.parameters for one in cases)
+        if name not in shifts and not (known and "." not in name):
             check_names(cases[0], [name], "{'J': None}")
 
 

@@ -14,6 +14,7 @@ from kempe.model.values import instance, mapping, refuse
 from kempe.sweeps.asked import located
 from kempe.sweeps.numbers import NUMBERS
 from kempe.sweeps.plan import Plan, chosen, without_later
+from kempe.sweeps.problems.columns import Columns, Part
 from kempe.sweeps.problems.formulas import (
     Formula,
     Limit,
@@ -25,7 +26,7 @@ from kempe.sweeps.problems.formulas import (
 )
 from kempe.sweeps.problems.path import Path
 from kempe.sweeps.problems.problem import Bound, Problem, Targets
-from kempe.sweeps.variables import check_names
+from kempe.sweeps.variables import changed, check_names
 from kempe.sweeps.wanted import MOTIONS, read_wanted
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ METHODS = ("slsqp", "trust-constr", "least-squares", "differential-evolution")
 #: The aims, of which there is one.
 AIMS = ("minimize", "maximize", "target")
 #: The arguments that the section can have too.
-_NAMES = ("variables", *AIMS, "subject_to", "starts", "seed", "method", "analysis")
+_NAMES = ("variables", *AIMS, "subject_to", "loads", "starts", "seed", "method", "analysis")
 #: Largest number of starts.
 MOST_STARTS = 10_000
 
@@ -52,7 +53,9 @@ def asked_of(case: Case, *arguments: Any) -> dict[str, Any]:
     instance(case, Case, "a case, as kp.load(path) returns")
     section, given = dict(case.optimize), dict(zip(_NAMES, arguments, strict=True))
     if any(given[aim] is not None for aim in AIMS):
-        section = {key: of for key, of in section.items() if key not in (*AIMS, "subject_to")}
+        section = {
+            key: of for key, of in section.items() if key not in (*AIMS, "subject_to", "loads")
+        }
     asked = {key: section.get(key) if of is None or of == () else of for key, of in given.items()}
     if not asked["variables"]:
         hint = "pass variables={'L2': (20, 30)}, or declare [optimize]"
@@ -72,22 +75,74 @@ def problem_of(case: Case, asked: Mapping[str, Any]) -> Problem:
     """
     bounds = [_bound(name, of) for name, of in _table(asked["variables"], "variables").items()]
     check_names(case, [bound.name for bound in bounds], "{'L2': (20, 30)}")
+    names = tuple(bound.name for bound in bounds)
     analysis = chosen(case, asked["analysis"])
-    own = without_later(case, analysis)
-    model, entry = own.model.compile(), own.analyses[analysis]
-    columns = () if entry["type"] in MOTIONS else tuple(NUMBERS[entry["type"]])
-    aim = next(aim for aim in AIMS if asked[aim] is not None)
-    objective = _objective(case, aim, asked[aim], columns)
-    limits = limits_of(case, asked["subject_to"] or (), asked["analysis"])
-    plan = Plan(own, analysis, tuple(bound.name for bound in bounds), ())
-    draft = Problem(case, plan, tuple(bounds), aim, objective, tuple(limits), Parameters(plan))
-    wanted = dict.fromkeys(
-        name for of in draft.formulas for name in of.names if name not in model.parameters
-    )
-    read = read_wanted(model, entry, list(wanted)) if wanted else []
-    plan = replace(plan, wanted=tuple(read))
+    plan = Plan(without_later(case, analysis), analysis, names, ())
     plan.check()
-    return _with_units(replace(draft, plan=plan, parameters=Parameters(plan)))
+    cases = [case, *_loads(case, asked["loads"], names)]
+    aim = next(aim for aim in AIMS if asked[aim] is not None)
+    objective, *others = _objectives(case, aim, asked[aim], plan)
+    limits = tuple(limits_of(case, asked["subject_to"] or (), asked["analysis"]))
+    parameters = tuple(Parameters(replace(plan, case=one)) for one in cases)
+    empty = Columns(())
+    draft = Problem(
+        case, plan, empty, tuple(bounds), aim, objective, limits, parameters, tuple(others)
+    )
+    draft = replace(draft, columns=_columns(draft, cases))
+    return _with_units(draft)
+
+
+def _loads(case: Case, given: Any, variables: Sequence[str]) -> list[Case]:
+    """The case with the settings of each load case.
+
+    Raises:
+        ModelError: a setting is invalid, or a variable.
+    """
+    form = "must be a list of settings: [{'mass': 2}, {'mass': 5}]"
+    if given is not None and (not isinstance(given, list | tuple) or not given):
+        refuse("loads", f"{given!r}; {form}")
+    found = []
+    for k, one in enumerate(given or ()):
+        settings = mapping(one, f"loads.{k}", "{'mass': 2}")
+        for name in (name for name in settings if name in variables):
+            raise ModelError(
+                f"loads.{k}: it sets {name}, which is a variable",
+                hint=f"leave {name} out of the load case, or out of the variables",
+            )
+        found.append(changed(case, settings))
+    return found
+
+
+def _columns(problem: Problem, cases: Sequence[Case]) -> Columns:
+    """The columns of all formulas, by load case and analysis.
+
+    Raises:
+        ModelError: an analysis or a column is unknown, or ``worst`` has no load cases.
+    """
+    wanted: dict[tuple[int, str], dict[str, None]] = {}
+    for formula in problem.formulas:
+        if formula.worst and len(cases) < 2:
+            raise ModelError(
+                f"{next(iter(formula.worst))}: there are no load cases",
+                hint="add loads=[{'mass': 2}, {'mass': 5}], or the list loads in [optimize]",
+            )
+        loads = range(1, len(cases))
+        of_loads = ((load, one) for one in formula.worst.values() for load in loads)
+        for load, one in ((0, formula), *of_loads):
+            for name in one.names:
+                if name not in problem.plan.case.model.parameters and name not in one.worst:
+                    prefix = name.partition(":")[0] + ":" if ":" in name else ""
+                    wanted.setdefault((load, prefix), {})[name] = None
+    parts = []
+    for (load, prefix), texts in sorted(wanted.items()):
+        own, analysis = cases[load], prefix[:-1] or problem.plan.analysis
+        one_of("analysis", analysis, own.analyses)
+        own = without_later(own, analysis)
+        bare = [text.removeprefix(prefix) for text in texts]
+        read = read_wanted(own.model.compile(), own.analyses[analysis], bare)
+        plan = Plan(own, analysis, problem.plan.names, tuple(read))
+        parts.append(Part(plan, tuple(texts), prefix, load))
+    return Columns(tuple(parts))
 
 
 def limits_of(case: Case, texts: str | Sequence[str], analysis: str | None) -> list[Limit]:
@@ -96,80 +151,98 @@ def limits_of(case: Case, texts: str | Sequence[str], analysis: str | None) -> l
     Raises:
         ModelError: one is invalid.
     """
-    name = chosen(case, analysis)
-    entry, model = case.analyses[name], case.model.compile()
-    columns = () if entry["type"] in MOTIONS else tuple(NUMBERS[entry["type"]])
+    model, columns = case.model.compile(), _plain_columns(case, chosen(case, analysis))
     given = [texts] if isinstance(texts, str) else texts
     return [read_limit(model, text, columns) for text in given]
 
 
-def units_of(plan: Plan) -> Units:
-    """The units of the columns and parameters of a plan, by their names."""
-    known, parameters = {one.text: one.unit for one in plan.wanted}, Parameters(plan)
-    return lambda name: known[name] if name in known else parameters.unit(name)
+def _plain_columns(case: Case, analysis: str) -> tuple[str, ...]:
+    """The columns of an analysis whose names have no point, such as ``lower``."""
+    kind = case.analyses[analysis]["type"]
+    return () if kind in MOTIONS else tuple(NUMBERS[kind])
 
 
-def with_units(limits: Sequence[Limit], plan: Plan) -> tuple[Limit, ...]:
+def with_units(limits: Sequence[Limit], unit: Units) -> tuple[Limit, ...]:
     """Limits with the units of their formulas, which must fit each other.
 
     Raises:
         ModelError: they do not.
     """
-    unit = units_of(plan)
 
     def of_limit(limit: Limit) -> Limit:
         small, large = (with_unit(side, unit) for side in limit.sides)
         room, known = with_unit(limit.room, unit), {of.text: of.unit for of in (large, small)}
         if not (small.names and large.names):  # a number with a unit
             whole = " - ".join(f"`{text}`" for text in known)
-            with_unit(replace(limit.room, of=whole, names=tuple(known)), known.__getitem__)
+            with_unit(Formula(limit.text, whole, tuple(known), ""), known.__getitem__)
         return Limit(limit.text, room, (small, large))
 
     return tuple(map(of_limit, limits))
 
 
+def units_of(parts: Sequence[Part], parameters: Parameters) -> Units:
+    """The units of columns and parameters by their names."""
+    known: dict[str, str] = {}
+    for part in parts:
+        known |= {text: one.unit for text, one in zip(part.texts, part.plan.wanted, strict=True)}
+    return lambda name: known[name] if name in known else parameters.unit(name)
+
+
 def _with_units(problem: Problem) -> Problem:
     """The problem with the units of its formulas, which must fit each other."""
-    unit, limits = units_of(problem.plan), with_units(problem.limits, problem.plan)
+    unit = units_of(problem.columns.parts, problem.parameters[0])
+    limits = with_units(problem.limits, unit)
     objective = problem.objective
-    if isinstance(objective, Formula):
-        objective = with_unit(objective, unit)
-    elif isinstance(objective, Targets):
+    if isinstance(objective, Targets):
         columns = tuple(with_unit(column, unit) for column in objective.columns)
-        objective = Targets(columns, objective.values)
-    elif (
-        objective.angles is not None
-        and problem.plan.case.analyses[problem.plan.analysis].get("type") not in MOTIONS
-    ):
-        raise ModelError(f"{objective.of}: a path needs a motion", hint="choose another analysis")
-    return replace(problem, objective=objective, limits=limits)
+        return replace(problem, objective=Targets(columns, objective.values), limits=limits)
+    own = (objective, *problem.others)
+    objective, *others = (with_unit(of, unit) if isinstance(of, Formula) else of for of in own)
+    return replace(problem, objective=objective, others=tuple(others), limits=limits)
 
 
-def _objective(case: Case, aim: str, given: Any, columns: Sequence[str]) -> Any:
-    model = case.model.compile()
+def _objectives(case: Case, aim: str, given: Any, plan: Plan) -> list[Any]:
+    """The objectives, checked; several for a Pareto front."""
+    model, columns = case.model.compile(), _plain_columns(case, plan.analysis)
     if aim == "target":
         pairs = _table(given, "target")
         values = [_number(x, f"target.{name}") for name, x in pairs.items()]
         if not pairs:
             refuse("target", "there are none; give one: {'slide.x.max': 0.3}")
         read = tuple(read_formula(model, name, columns) for name in pairs)
-        return Targets(read, tuple(values))
+        for formula in read:
+            if formula.worst:
+                told = f"target: {formula.text!r}: a target has no worst load case"
+                raise ModelError(told, hint="write limits: subject_to=['worst(x) <= 3']")
+        return [Targets(read, tuple(values))]
+    found = [
+        _objective(case, aim, one, plan)
+        for one in (given if isinstance(given, list | tuple) else [given])
+    ]
+    if not found:
+        refuse(aim, "there are none; give a column such as 'C.force.max'")
+    if len({of.text if isinstance(of, Formula) else id(of) for of in found}) < len(found):
+        refuse(aim, "an objective is given twice")
+    if sum(isinstance(of, Path) for of in found) > 1:
+        refuse(aim, "there are several paths; there may be one")
+    return found
+
+
+def _objective(case: Case, aim: str, given: Any, plan: Plan) -> Formula | Path:
+    """An objective, checked."""
+    model = case.model.compile()
     if isinstance(given, Mapping):
         given = Path.read(given)
     if isinstance(given, Path):
         if aim == "maximize":
             refuse("maximize", "a path is a distance; minimize it")
-        point = case.model.compile()
         body, _, name = given.of.rpartition(".")
-        one_of("body", body, point.bodies)
-        one_of(f"point of {body}", name, point.bodies[body].points)
+        one_of("body", body, model.bodies)
+        one_of(f"point of {body}", name, model.bodies[body].points)
+        if given.angles is not None and plan.case.analyses[plan.analysis]["type"] not in MOTIONS:
+            raise ModelError(f"{given.of}: a path needs a motion", hint="choose another analysis")
         return given
-    if isinstance(given, list | tuple):
-        raise ModelError(
-            f"{aim}: {len(given)} objectives; kempe optimises one",
-            hint="weigh them in a formula, or keep all but one below limits with subject_to=",
-        )
-    formula = read_formula(model, given, columns)
+    formula = read_formula(model, given, _plain_columns(case, plan.analysis))
     if not formula.names:
         refuse(aim, f"{given!r} has no column and no parameter")
     return formula
@@ -243,6 +316,11 @@ def check_method(problem: Problem, method: str | None) -> None:
     if method is None:
         return
     one_of("method", method, METHODS)
+    if problem.others:
+        raise ModelError(
+            f"method: {method} has one objective, and there are {1 + len(problem.others)}",
+            hint="leave method out, or keep all objectives but one below limits",
+        )
     if method == "least-squares" and (isinstance(problem.objective, Formula) or problem.limits):
         raise ModelError(
             "method: least-squares solves paths and targets without limits",

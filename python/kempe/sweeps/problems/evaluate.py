@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from dataclasses import replace
+from itertools import count
 from threading import Event, Lock
 from typing import TypeAlias
 
@@ -12,16 +14,14 @@ from numpy.typing import NDArray
 
 from kempe.base.arrays import Floats
 from kempe.errors import InternalError, KempeError
-from kempe.sweeps.gradients.run import in_analyses, numbers_and_slopes
 from kempe.sweeps.plan import Block
+from kempe.sweeps.problems.columns import has_slopes
 from kempe.sweeps.problems.problem import Numbers, Problem, Run
 from kempe.sweeps.reasons import origin_of, reason
 from kempe.sweeps.storage import Storage
 
 #: Called with the numbers of runs and of failed runs, and the best objective so far.
 Progress: TypeAlias = "Callable[[int, int, float], object]"
-#: Change of a variable, as a part of its range, for a slope that the core does not give.
-_CHANGE = 1e-4
 #: Largest number of runs in a file.
 _MOST = 100_000_000
 
@@ -46,34 +46,37 @@ class Evaluations:
         self._lock, self._storage, self._progress = Lock(), storage, progress
         self._known: dict[bytes, tuple[Floats, str]] = {}
         self._counts: dict[int, int] = {}
-        self._kept, self.best, self._failed = 0, np.nan, 0
-        self._missing: dict[int, str] | None = None
-        path, plan = problem.path, problem.plan
-        self._shape = (len(plan.names), len(plan.wanted), path.size if path else 0)
+        self.best, self._failed = np.nan, 0
+        path, columns = problem.path, problem.columns
+        self._ranges = np.array([[bound.least, bound.largest] for bound in problem.bounds])
+        self._shape = (len(problem.bounds), len(columns), path.size if path else 0)
+        kept = 0
         if storage is not None:
             for k, numbers, told, _ in storage.read(_MOST, self._width):
                 self._known[self._key(numbers)] = numbers.copy(), told
-                self._kept = k + 1
+                kept = k + 1
+        self._places = count(kept)
 
     @property
     def _width(self) -> int:
-        n, count, size = self._shape
-        return 1 + n + (count + size) * (1 + n)
+        n, width, size = self._shape
+        return 1 + n + (width + size) * (1 + n)
 
     def _key(self, numbers: Floats) -> bytes:
         return np.ascontiguousarray(numbers[: 1 + self._shape[0]]).tobytes()
 
     def has_slopes(self, row: Floats) -> bool | None:
         """Whether the core gives some slope of each column at a point; None if the run fails."""
-        if not self.problem.plan.wanted:
-            return True
-        try:
-            _, slopes, _ = numbers_and_slopes(self.problem.plan, row)
-        except InternalError:
-            raise
-        except KempeError:
-            return None
-        return not np.isnan(slopes).all(axis=1).any()
+        return has_slopes(self.problem.columns.parts, row)
+
+    def of(self, problem: Problem) -> Evaluations:
+        """The same runs, which another problem with the same columns judges; a history of its own.
+
+        They have no progress of their own.
+        """
+        other = copy(self)
+        other.problem, other.history, other._progress, other._counts = problem, [], None, {}
+        return other
 
     def at(self, start: int, row: Floats) -> Run:
         """A run with its derivatives.
@@ -107,19 +110,19 @@ class Evaluations:
     def _judged(self, row: Floats, numbers: Floats, told: str) -> Run:
         if told:
             return Run.failed(row, told)
-        n, count, size = self._shape
-        ends = np.cumsum([1 + n, count, count * n, size, size * n])
+        n, width, size = self._shape
+        ends = np.cumsum([1 + n, width, width * n, size, size * n])
         _, columns, slopes, residuals, of = np.split(numbers, ends[:-1])
-        parts = Numbers(columns, slopes.reshape(count, n), residuals, of.reshape(size, n))
+        parts = Numbers(columns, slopes.reshape(width, n), residuals, of.reshape(size, n))
         return self.problem.judged(row, parts)
 
     def _values(self, rows: Floats) -> list[tuple[Numbers | None, str]]:
-        n, count, _ = self._shape
-        if self.problem.path is not None or not count:
+        n, width, _ = self._shape
+        if self.problem.path is not None or not width:
             return [self._slopes(row)[0] for row in rows]
-        block = self.problem.plan.rows(rows, self._workers)
-        none = np.full((count, n), np.nan), np.zeros(0), np.zeros((0, n))
-        pairs = zip(block.values, block.reasons, strict=True)
+        values, reasons = self.problem.columns.rows(rows, self._workers)
+        none = np.full((width, n), np.nan), np.zeros(0), np.zeros((0, n))
+        pairs = zip(values, reasons, strict=True)
         return [(None, told) if told else (Numbers(of, *none), "") for of, told in pairs]
 
     def _slopes(self, row: Floats) -> list[tuple[Numbers | None, str]]:
@@ -137,36 +140,16 @@ class Evaluations:
             KempeError: the run fails.
         """
         plan, path = self.problem.plan, self.problem.path
-        n, count, _ = self._shape
+        n, width, _ = self._shape
         residuals, of = np.zeros(0), np.zeros((0, n))
         if path is not None:
             residuals, of = path.residuals(plan, row)
-        elif not count:  # an objective of parameters alone; the case must run all the same
+        elif not width:  # an objective of parameters alone; the case must run all the same
             plan.run(row)
-        if not count:
+        if not width:
             return Numbers(np.zeros(0), np.zeros((0, n)), residuals, of)
-        values, slopes, _ = numbers_and_slopes(plan, row)
-        slopes[:, list(self._formulas(row))] = np.nan
-        return Numbers(values, self._mended(row, slopes), residuals, of)
-
-    def _formulas(self, row: Floats) -> dict[int, str]:
-        """The variables in formulas of analyses, whose slopes are differences."""
-        if self._missing is None:
-            self._missing = in_analyses(self.problem.plan, row)
-        return self._missing
-
-    def _mended(self, row: Floats, slopes: Floats) -> Floats:
-        """Slopes with differences in place of those that the core does not give."""
-        missing = np.isnan(slopes)
-        for of in np.flatnonzero(missing.any(axis=0)):
-            bound = self.problem.bounds[of]
-            step = _CHANGE * (bound.largest - bound.least)
-            pair = np.tile(row, (2, 1))
-            pair[:, of] = np.clip(row[of] + np.array([step, -step]), bound.least, bound.largest)
-            up, down = self.problem.plan.rows(pair, self._workers).values
-            difference = (up - down) / (pair[0, of] - pair[1, of])
-            slopes[missing[:, of], of] = difference[missing[:, of]]
-        return slopes
+        values, slopes = self.problem.columns.slopes(row, self._ranges, self._workers)
+        return Numbers(values, slopes, residuals, of)
 
     def _keep(
         self, rows: Floats, computed: Sequence[tuple[Numbers | None, str]], *, slopes: bool
@@ -182,9 +165,8 @@ class Evaluations:
         with self._lock:
             if self._storage is not None:
                 marks: NDArray[np.uint8] = np.zeros(lines.shape, np.uint8)
-                places = np.arange(self._kept, self._kept + len(lines))
+                places = np.array([next(self._places) for _ in lines])
                 self._storage.add(places, Block(lines, reasons, marks))
-            self._kept += len(lines)
             for line, told in zip(lines, reasons, strict=True):
                 self._known[self._key(line)] = line, told
 
@@ -205,4 +187,5 @@ class Evaluations:
 def _light(run: Run) -> Run:
     """A run without derivatives, for the history."""
     none = np.zeros(0)
-    return replace(run, slope=none, residuals=(none, none), room_slopes=none)
+    pair = (none, none)
+    return replace(run, slope=none, pieces=pair, residuals=pair, room_slopes=none)

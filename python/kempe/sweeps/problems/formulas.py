@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -20,8 +20,10 @@ from kempe.sweeps.plan import Plan
 
 #: A comparison at the top of a formula.
 _COMPARISON = re.compile(r"<=|>=|==|=|<|>")
-#: A name that a formula can use without backticks.
-_PLAIN = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*")
+#: A quoted name, or one that must be quoted: ``fall:C.force.max``, ``frequency[0]``.
+_NAME = re.compile(r"`[^`]*`|(?<![\w.])([A-Za-z_]\w*:)?[A-Za-z_][\w.]*(\[-?\d+\])?")
+#: A formula over all load cases.
+_WORST = re.compile(r"(?<![\w.`])worst\s*\(")
 
 #: The unit of a column or a parameter, by its name.
 Units = Callable[[str], str]
@@ -34,14 +36,16 @@ class Formula:
     Attributes:
         text: as the user wrote it.
         of: the text for the core.
-        names: the columns and parameters in it.
+        names: the columns and parameters in it, and the texts of ``worst``.
         unit: its SI unit; empty if it is not known.
+        worst: the formulas that ``worst`` takes in each load case, by these texts.
     """
 
     text: str
     of: str
     names: tuple[str, ...]
     unit: str
+    worst: Mapping[str, Formula] = field(default_factory=dict)
 
     def at(self, slopes: Mapping[str, tuple[float, Floats]]) -> tuple[float, Floats]:
         """The value, and the derivatives by the variables, from those of its names."""
@@ -60,7 +64,8 @@ class Formula:
     @property
     def columns(self) -> list[str]:
         """The names that are columns, not parameters."""
-        return [name for name in self.names if "." in name or "[" in name]
+        own = (name for name in self.names if name not in self.worst)
+        return [name for name in own if set(".[:") & set(name)]
 
 
 def read_formula(model: CompiledModel, text: str, columns: Iterable[str]) -> Formula:
@@ -76,11 +81,32 @@ def read_formula(model: CompiledModel, text: str, columns: Iterable[str]) -> For
     """
     if not isinstance(text, str) or not text.strip():
         refuse("formula", f"{text!r}; must be a text such as 'C.force.max'")
-    written = text.strip()
-    if "[" in written and re.fullmatch(r"[\w.]+\[-?\d+\]", written):
-        return Formula(text, f"`{written}`", (written,), "")
-    names = [_quoted(name, model, set(columns)) for name in _core.formula_names(written)]
-    return Formula(text, written, tuple(names), "")
+    written, worst = _without_worst(model, text.strip(), columns)
+    written = _NAME.sub(lambda of: f"`{of[0]}`" if of[1] or of[2] else of[0], written)
+    others = {*columns, *worst}
+    names = [_checked(name, model, others) for name in _core.formula_names(written)]
+    return Formula(text, written, tuple(names), "", worst)
+
+
+def _without_worst(
+    model: CompiledModel, text: str, columns: Iterable[str]
+) -> tuple[str, dict[str, Formula]]:
+    """A text with a name in place of each ``worst(…)``, and the formulas within these."""
+    worst: dict[str, Formula] = {}
+    while (found := _WORST.search(text)) is not None:
+        depth, end = 1, found.end()
+        while depth and end < len(text):
+            depth += {"(": 1, ")": -1}.get(text[end], 0)
+            end += 1
+        inner = text[found.end() : end - 1].strip().strip("\"'")
+        if depth or _WORST.search(inner):
+            refuse(
+                "formula", f"{text!r}; write worst(C.force.max) or worst(C.force.max - 3*weight)"
+            )
+        name = f"worst({inner})".replace("`", "")
+        worst[name] = read_formula(model, inner, columns)
+        text = f"{text[: found.start()]}`{name}`{text[end:]}"
+    return text, worst
 
 
 def with_unit(formula: Formula, unit: Units) -> Formula:
@@ -89,7 +115,8 @@ def with_unit(formula: Formula, unit: Units) -> Formula:
     Raises:
         ModelError: its units contradict each other.
     """
-    units = [unit(name) for name in formula.names]
+    worst = {name: with_unit(of, unit) for name, of in formula.worst.items()}
+    units = [worst[name].unit if name in worst else unit(name) for name in formula.names]
     try:
         found = _core.formula_unit(formula.of, list(formula.names), units)
     except KempeError as error:
@@ -98,19 +125,29 @@ def with_unit(formula: Formula, unit: Units) -> Formula:
         )
         raise ModelError(f"{formula.text!r}: {error.args[0]}; {told}", hint=error.hint) from error
     single = formula.names and formula.of.strip(" `") == formula.names[0]
-    of = units[0] if single else found
-    return Formula(formula.text, formula.of, formula.names, "" if of == "SI" else of)
+    of = units[0] if single else _divided(found)
+    return replace(formula, unit="" if of == "SI" else of, worst=worst)
 
 
-def _quoted(name: str, model: CompiledModel, columns: set[str]) -> str:
-    """A name as a column is written, or the name of a parameter.
+def _divided(unit: str) -> str:
+    """A unit with divisions in place of negative powers: ``m/s``, not ``m*s^-1``."""
+    parts = [part.split("^-") for part in unit.split("*")]
+    above = "*".join(part[0] for part in parts if len(part) == 1)
+    below = (
+        "/" + part[0] + (f"^{part[1]}" if part[1] != "1" else "") for part in parts if part[1:]
+    )
+    return (above or "1") + "".join(below) if "^-" in unit else unit
+
+
+def _checked(name: str, model: CompiledModel, columns: set[str]) -> str:
+    """The name of a column or a parameter.
 
     Raises:
         ModelError: it is neither.
     """
     if name in model.parameters or name in columns:
         return name
-    if "." not in name:
+    if not set(".[:") & set(name):
         hint = f"parameters are {few(model.parameters)}" if model.parameters else None
         told = f"{name!r} is neither a parameter nor a column such as C.force.max"
         raise ModelError(told, name=name, hint=hint)
@@ -157,7 +194,8 @@ def read_limit(model: CompiledModel, text: str, columns: Sequence[str]) -> Limit
     names = tuple(dict.fromkeys(name for side in sides for name in side.names))
     if not names:
         refuse("subject_to", f"{text!r} has no column and no parameter")
-    return Limit(text, Formula(text, whole, names, ""), (sides[0], sides[1]))
+    worst = {**sides[0].worst, **sides[1].worst}
+    return Limit(text, Formula(text, whole, names, "", worst), (sides[0], sides[1]))
 
 
 def _plain(side: Formula) -> str:

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from kempe.base.arrays import Floats
 from kempe.sweeps.plan import Plan
+from kempe.sweeps.problems.columns import Columns
 from kempe.sweeps.problems.formulas import Formula, Limit, Parameters
 from kempe.sweeps.problems.path import Path
+from kempe.sweeps.variables import changed
 
 if TYPE_CHECKING:
     from kempe.case import Case
 
+#: Values and derivatives of columns and parameters by their names.
+Known: TypeAlias = "Mapping[str, tuple[float, Floats]]"
 #: Part of the size of a limit by which it may be exceeded.
 TOLERANCE = 1e-6
 #: Part of the change of a limit over the bounds that is its least size.
@@ -75,7 +80,7 @@ class Targets:
     columns: tuple[Formula, ...]
     values: tuple[float, ...]
 
-    def residuals(self, slopes: Mapping[str, tuple[float, Floats]]) -> tuple[Floats, Floats]:
+    def residuals(self, slopes: Known) -> tuple[Floats, Floats]:
         """The relative deviations, divided by √n, and their derivatives."""
         found = [column.at(slopes) for column in self.columns]
         sizes = [(abs(of) or 1.0) * len(self.values) ** 0.5 for of in self.values]
@@ -112,12 +117,16 @@ class Run:
         columns: the columns by name.
         objective: its value; NaN if the run failed.
         slope: its derivatives by the variables.
+        pieces: its values and derivatives in all load cases, of which it is the worst; one without
+            ``worst``.
         residuals: residuals whose sum of squares is the square of the objective, and their
             derivatives; empty if it is not of this kind.
-        room: the room in each limit, at least 0 where it holds.
+        room: the room in each limit, at least 0 where it holds; for ``worst`` in all load cases.
         room_slopes: their derivatives.
+        limits: the place of the limit to which each room belongs.
         sizes: the size of each limit: of the terms that it compares, or of their change over the
             bounds where they are all near 0.
+        others: the values of further objectives.
         reason: why the run failed; empty if it did not.
     """
 
@@ -125,17 +134,21 @@ class Run:
     columns: Mapping[str, float]
     objective: float
     slope: Floats
+    pieces: tuple[Floats, Floats]
     residuals: tuple[Floats, Floats]
     room: Floats
     room_slopes: Floats
+    limits: tuple[int, ...]
     sizes: Floats
+    others: tuple[float, ...] = ()
     reason: str = ""
 
     @classmethod
     def failed(cls, row: Floats, reason: str) -> Run:
         """A run that failed."""
         none = np.zeros(0)
-        return cls(row, {}, np.nan, none, (none, none), none, none, none, reason)
+        pair = (none, none)
+        return cls(row, {}, np.nan, none, pair, pair, none, none, (), none, reason=reason)
 
     @property
     def violation(self) -> float:
@@ -159,25 +172,31 @@ class Problem:
 
     Attributes:
         case: the whole case.
-        plan: the analysis, the variables and the columns.
+        plan: the analysis and the variables.
+        columns: the columns.
         bounds: the variables with their bounds.
         aim: "minimize", "maximize" or "target".
         objective: a formula, a path, or targets.
         limits: the limits.
+        parameters: the parameters of the case, and then those of each load case.
+        others: further objectives of a Pareto front.
     """
 
     case: Case
     plan: Plan
+    columns: Columns
     bounds: tuple[Bound, ...]
     aim: str
     objective: Formula | Path | Targets
     limits: tuple[Limit, ...]
-    parameters: Parameters
+    parameters: tuple[Parameters, ...]
+    others: tuple[Formula | Path, ...] = ()
 
     @property
     def path(self) -> Path | None:
-        """The path, if it is the objective."""
-        return self.objective if isinstance(self.objective, Path) else None
+        """The path, if it is an objective."""
+        own = (self.objective, *self.others)
+        return next((one for one in own if isinstance(one, Path)), None)
 
     @property
     def sign(self) -> float:
@@ -190,6 +209,11 @@ class Problem:
         if isinstance(self.objective, Path):
             return f"distance of {self.objective.of}"
         return "deviation from the target" if self.aim == "target" else self.objective.text  # type: ignore[union-attr]
+
+    @property
+    def labels(self) -> list[str]:
+        """All objectives in words."""
+        return [one.label for one in self.objectives]
 
     @property
     def unit(self) -> str:
@@ -219,53 +243,80 @@ class Problem:
 
     def changed(self, row: Floats) -> Case:
         """The case with values of the variables."""
-        values = dict(zip(self.plan.names, row.tolist(), strict=True))
-        parameters = {name: x for name, x in values.items() if "." not in name}
-        start = {name: x for name, x in values.items() if "." in name}
-        case = self.case.with_parameters(parameters) if parameters else self.case
-        return case.with_start(start) if start else case
+        return changed(self.case, dict(zip(self.plan.names, row.tolist(), strict=True)))
 
     def judged(self, row: Floats, found: Numbers) -> Run:
         """The objective and the limits of a run."""
-        texts = [one.text for one in self.plan.wanted]
-        slopes = dict(
-            zip(texts, zip(found.columns.tolist(), found.slopes, strict=True), strict=True)
-        )
-        slopes |= self.parameters.at(row, self._names)
-        residuals = (found.residuals, found.residual_slopes)
-        if isinstance(self.objective, Targets):
-            residuals = self.objective.residuals(slopes)
-        if isinstance(self.objective, Formula):
-            value, slope = self.objective.at(slopes)
-        else:
-            value = float(np.linalg.norm(residuals[0]))
-            slope = residuals[0] @ residuals[1] / value if value else np.zeros(len(row))
-        rooms = [limit.room.at(slopes) for limit in self.limits]
-        sizes = [
-            self._size(limit, slopes, (room, slope * self.rates(row)))
-            for limit, (room, slope) in zip(self.limits, rooms, strict=True)
-        ]
-        columns = dict(zip(texts, found.columns.tolist(), strict=True))
-        for name, number in [(self.label, value)] + [
-            (limit.text, room) for limit, (room, _) in zip(self.limits, rooms, strict=True)
-        ]:
+        known = self._known(row, found)
+        pieces, residuals = self._objective(row, known, found)
+        worst = int(np.argmax(self.sign * pieces[0]))
+        others = tuple(one._value(row, known, found) for one in self.objectives[1:])
+        rooms, owners, sizes = [], [], []
+        for k, limit in enumerate(self.limits):
+            for piece in self._pieces(limit.room, known):
+                room, slope = limit.room.at(piece)
+                rooms.append((room, slope))
+                owners.append(k)
+                sizes.append(self._size(limit, piece, (room, slope * self.rates(row))))
+        named = list(zip(self.labels, (pieces[0][worst], *others), strict=True))
+        named += [(self.limits[k].text, room) for k, (room, _) in zip(owners, rooms, strict=True)]
+        for name, number in named:
             if not np.isfinite(number):
                 return Run.failed(row, f"{name} has no value here: it is {number}")
         return Run(
             row,
-            columns,
-            float(value),
-            slope,
+            dict(zip(self.columns.labels, found.columns.tolist(), strict=True)),
+            float(pieces[0][worst]),
+            pieces[1][worst],
+            pieces,
             residuals,
             np.array([room for room, _ in rooms]),
             np.array([slope for _, slope in rooms]).reshape(len(rooms), len(row)),
+            tuple(owners),
             np.array(sizes),
+            others,
         )
 
+    def _value(self, row: Floats, known: list[Known], found: Numbers) -> float:
+        """The objective."""
+        values = self._objective(row, known, found)[0][0]
+        return float(values[int(np.argmax(self.sign * values))])
+
+    def _objective(
+        self, row: Floats, known: list[Known], found: Numbers
+    ) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
+        """The pieces of the objective, and its residuals."""
+        residuals = (found.residuals, found.residual_slopes)
+        if isinstance(self.objective, Formula):
+            of = self.objective
+            pieces = [of.at(piece) for piece in self._pieces(of, known)]
+            return (np.array([x for x, _ in pieces]), np.array([by for _, by in pieces])), residuals
+        if isinstance(self.objective, Targets):
+            residuals = self.objective.residuals(known[0])
+        value = float(np.linalg.norm(residuals[0]))
+        slope = residuals[0] @ residuals[1] / value if value else np.zeros(len(row))
+        return (np.array([value]), slope[None]), residuals
+
+    def _known(self, row: Floats, found: Numbers) -> list[Known]:
+        """Columns and parameters of the case itself, and then of each load case."""
+        known: list[dict[str, tuple[float, Floats]]] = [{} for _ in self.parameters]
+        values, slopes = map(self.columns.split, (found.columns, found.slopes))
+        for part, x, by in zip(self.columns.parts, values, slopes, strict=True):
+            pairs = zip(x.tolist(), by, strict=True)
+            known[part.load] |= dict(zip(part.texts, pairs, strict=True))
+        for own, formulas, parameters in zip(known, self._by_load, self.parameters, strict=True):
+            names = (name for one in formulas for name in one.names if name not in one.worst)
+            own.update(parameters.at(row, [name for name in names if name not in own]))
+        return list(known)
+
+    def _pieces(self, formula: Formula, known: list[Known]) -> Iterator[Known]:
+        """The columns and parameters of a formula, with each ``worst`` in every load case."""
+        for loads in product(known[1:], repeat=len(formula.worst)):
+            pairs = zip(formula.worst.items(), loads, strict=True)
+            yield {**known[0], **{name: one.at(load) for (name, one), load in pairs}}
+
     @staticmethod
-    def _size(
-        limit: Limit, known: Mapping[str, tuple[float, Floats]], room: tuple[float, Floats]
-    ) -> float:
+    def _size(limit: Limit, known: Known, room: tuple[float, Floats]) -> float:
         """The size of a limit, from its room and the change of this over the bounds."""
         sides = [abs(side.at(known)[0]) for side in limit.sides]
         size = max(*sides, limit.room.size(known))
@@ -274,15 +325,21 @@ class Problem:
         return size
 
     @property
-    def _names(self) -> Sequence[str]:
-        """The parameters in formulas."""
-        texts = {one.text for one in self.plan.wanted}
-        return [name for formula in self.formulas for name in formula.names if name not in texts]
+    def _by_load(self) -> list[list[Formula]]:
+        """The formulas whose names belong to the case itself, and then to each load case."""
+        within = [one for formula in self.formulas for one in formula.worst.values()]
+        return [self.formulas, *([within] * (len(self.parameters) - 1))]
 
     @property
     def formulas(self) -> list[Formula]:
-        """All formulas: the objective, the limits and their sides."""
+        """All formulas: the objectives, the limits and their sides."""
         found = [formula for limit in self.limits for formula in (limit.room, *limit.sides)]
-        if isinstance(self.objective, Targets):
-            return [*self.objective.columns, *found]
-        return [self.objective, *found] if isinstance(self.objective, Formula) else found
+        of = self.objective
+        own = of.columns if isinstance(of, Targets) else (of, *self.others)
+        return [*(one for one in own if isinstance(one, Formula)), *found]
+
+    @property
+    def objectives(self) -> tuple[Problem, ...]:
+        """The problem with each of its objectives alone."""
+        all_of = (self.objective, *self.others)
+        return tuple(replace(self, objective=one, others=()) for one in all_of)

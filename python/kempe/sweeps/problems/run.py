@@ -21,6 +21,7 @@ from kempe.sweeps.problems import path as paths
 from kempe.sweeps.problems.asked import MOST_STARTS, asked_of, check_method, problem_of, whole
 from kempe.sweeps.problems.evaluate import Evaluations, Progress, StoppedError
 from kempe.sweeps.problems.formulas import Formula
+from kempe.sweeps.problems.front import MEMBERS, best_of, front
 from kempe.sweeps.problems.optimum import Optimum
 from kempe.sweeps.problems.problem import Problem, Run
 from kempe.sweeps.problems.search import Search, scipy
@@ -39,10 +40,11 @@ def optimize(
     case: Case,
     variables: Mapping[str, Sequence[Any]] | None = None,
     *,
-    minimize: str | paths.Path | None = None,
-    maximize: str | None = None,
+    minimize: str | paths.Path | Sequence[str | paths.Path] | None = None,
+    maximize: str | Sequence[str] | None = None,
     target: Mapping[str, float] | None = None,
     subject_to: str | Sequence[str] = (),
+    loads: Sequence[Mapping[str, Any]] | None = None,
     starts: int | None = None,
     seed: int | None = None,
     method: str | None = None,
@@ -58,11 +60,15 @@ def optimize(
         case: the case.
         variables: bounds by the name of a parameter (``L2``) or of a coordinate or rate at the
             start: ``(least, largest)`` or ``(least, largest, "log")``, SI units and rad.
-        minimize: a column of sweeps such as ``"C.force.max"``, a formula of columns and parameters,
-            or a ``kp.Path``.
-        maximize: a column or a formula.
+        minimize: a column of sweeps such as ``"C.force.max"``, of another analysis such as
+            ``"fall:C.force.max"``, a formula of columns and parameters, or a ``kp.Path``.
+            A list of these gives the Pareto front of all, by NSGA-II of pymoo.
+        maximize: a column or a formula, or a list of these.
         target: values that columns should have: ``{"slide.x.max": 0.3}``.
         subject_to: limits, comparisons of formulas: ``["motor.effort.peak <= 40"]``.
+        loads: load cases, settings of parameters and start values: ``[{"mass": 2}, {"mass": 5}]``.
+            ``worst(C.force.max)`` in a formula takes its column, or a formula, in each of them, and
+            the worst counts. Other columns are those of the case itself.
         starts: number of searches; the first begins with the values of the case, the others at
             Sobol points. One by default.
         seed: number from which the points are drawn.
@@ -79,8 +85,14 @@ def optimize(
             run that succeeds.
     """
     aims = (minimize, maximize, target)
-    asked = asked_of(case, variables, *aims, subject_to, starts, seed, method, analysis)
-    problem = problem_of(case, asked)
+    asked = asked_of(case, variables, *aims, subject_to, loads, starts, seed, method, analysis)
+    return _searched(problem_of(case, asked), asked, out, progress)
+
+
+def _searched(
+    problem: Problem, asked: Mapping[str, Any], out: Path | str | None, progress: Progress | None
+) -> Optimum:
+    """Solve a problem, with the runs in a file if there is one."""
     count = whole(1 if asked["starts"] is None else asked["starts"], "starts", 1, MOST_STARTS)
     seed = whole(0 if asked["seed"] is None else asked["seed"], "seed", 0, 2**31)
     check_method(problem, asked["method"])
@@ -91,6 +103,8 @@ def optimize(
         runs = Evaluations(problem, storage, progress, workers)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
+            if problem.others:
+                return _fronted(runs, seed)
             return _solved(runs, asked["method"], (count, seed, workers))
     finally:
         if storage is not None:
@@ -132,6 +146,23 @@ def _solved(runs: Evaluations, method: str | None, how: tuple[int, int, int]) ->
     return Optimum(runs.problem, found, runs.history)
 
 
+def _fronted(runs: Evaluations, seed: int) -> Optimum:
+    """The Pareto front of several objectives."""
+    count = MEMBERS * (1 + len(runs.problem.others))
+    points = _Points(runs.problem, seed)
+    try:
+        found = front(runs, np.vstack([points.own, points.drawn(count)[: count - 1]]), seed)
+    except KeyboardInterrupt as error:
+        found = best_of([run for *_, run in runs.history[-4 * count :]], runs.problem.sign)
+        told = "interrupted"
+        result = Optimum(runs.problem, found, runs.history, told) if found else None
+        error.result = result  # type: ignore[attr-defined]
+        raise
+    if not found:
+        raise _nothing(runs)
+    return Optimum(runs.problem, found, runs.history)
+
+
 def _ended(futures: Sequence[Future[Run | None]]) -> None:
     """Wait until all searches have noticed that they must stop."""
     for future in futures:
@@ -144,11 +175,17 @@ class _Points:
 
     def __init__(self, problem: Problem, seed: int) -> None:
         values = present(problem.case, problem.plan.names)
-        self._own = problem.shares(values.values())
-        self._dimension, self._seed = len(self._own), seed
+        self.own = problem.shares(values.values())
+        self._dimension, self._seed = len(self.own), seed
 
     def of(self, start: int, count: int) -> list[Floats]:
         """The points that a start tries one after the other."""
+        drawn = self.drawn(count * _TRIES)
+        own = [drawn[start - 1 + k * count] for k in range(_TRIES) if start or k]
+        return [self.own, *own] if start == 0 else own
+
+    def drawn(self, count: int) -> Floats:
+        """Sobol points, at least so many."""
         from scipy.stats import qmc
 
         sobol = (
@@ -156,9 +193,7 @@ class _Points:
             if _has_rng(qmc.Sobol)
             else qmc.Sobol(self._dimension, seed=self._seed)
         )
-        drawn = sobol.random_base2(int(np.ceil(np.log2(max(2, count * _TRIES)))))
-        own = [drawn[start - 1 + k * count] for k in range(_TRIES) if start or k]
-        return [self._own, *own] if start == 0 else own
+        return np.asarray(sobol.random_base2(int(np.ceil(np.log2(max(2, count))))))
 
 
 def _has_rng(kind: Any) -> bool:
@@ -168,10 +203,18 @@ def _has_rng(kind: Any) -> bool:
 
 
 def _method(runs: Evaluations, points: Sequence[Floats]) -> str:
-    """The method that fits a problem: derivatives are needed where the first run succeeds."""
+    """The method that fits a problem: derivatives are needed at one of the first two points.
+
+    At one point alone, two equal peaks may leave a measure without a slope.
+    """
     problem = runs.problem
     tried = (runs.has_slopes(problem.row(point)) for point in points)
-    if next((found for found in tried if found is not None), None) is False:
+    found: list[bool] = []
+    for one in tried:
+        found += [] if one is None else [one]
+        if any(found) or len(found) == 2:
+            break
+    if found and not any(found):
         return "differential-evolution"
     is_squares = not isinstance(problem.objective, Formula) and not problem.limits
     return "least-squares" if is_squares else "slsqp"
@@ -180,6 +223,11 @@ def _method(runs: Evaluations, points: Sequence[Floats]) -> str:
 def _nothing(runs: Evaluations) -> ModelError:
     """The error of a search without any run that succeeds."""
     told = Counter(run.reason for *_, run in runs.history).most_common(1)[0][0]
+    if not told:
+        return ModelError(
+            f"optimize: none of {len(runs.history)} runs satisfies all limits",
+            hint="minimize one objective, which names the missed limits, or relax the limits",
+        )
     return ModelError(
         f"optimize: all {len(runs.history)} runs within the bounds fail; most frequently: {told}",
         hint="widen the bounds, or begin with values in the file for which the case runs",
@@ -190,11 +238,16 @@ def _key(problem: Problem, asked: Mapping[str, Any]) -> str:
     """A fingerprint of a search: equal fingerprints imply equal runs."""
     bounds = np.array([[bound.least, bound.largest, bound.log] for bound in problem.bounds])
     tree = {key: _plain(of) for key, of in asked.items() if key != "starts"}
-    text = json.dumps([problem.plan.key_of(bounds), tree], sort_keys=True, default=str)
+    keys = [
+        plan.key_of(bounds) for plan in (problem.plan, *(p.plan for p in problem.columns.parts))
+    ]
+    text = json.dumps([keys, tree], sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def _plain(of: Any) -> Any:
     if isinstance(of, paths.Path):
         return of.tree()
+    if isinstance(of, list | tuple):
+        return [_plain(one) for one in of]
     return dict(of) if isinstance(of, Mapping) else of

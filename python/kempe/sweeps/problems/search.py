@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -12,9 +13,10 @@ from kempe.base.arrays import Floats
 from kempe.errors import KempeError, ModelError
 from kempe.sweeps.problems.evaluate import Evaluations
 from kempe.sweeps.problems.problem import Run
+from kempe.sweeps.problems.smooth import Smooth
 from kempe.sweeps.reasons import reason
 
-#: Relative change of the scaled objective at which a method ends; most iterations; most rounds.
+#: Relative change of the scaled objective at which a method ends; most runs of a round, and rounds.
 _SMALL, _MOST, _ROUNDS = 1e-10, 300, 4
 #: A gap in a message.
 _GAP = re.compile(r"\bby (\d[\d.]*(?:e-?\d+)?) (?:m|rad)\b")
@@ -45,6 +47,10 @@ def scipy() -> Any:
     return scipy.optimize
 
 
+class _EndedError(Exception):
+    """A round has had its runs, as at a corner, where steps hardly gain anything."""
+
+
 class Search:
     """A search from one start.
 
@@ -61,11 +67,15 @@ class Search:
         self.best: Run | None = None
         self._last: Run | None = None
         self._seen: tuple[bytes, Run] | None = None
+        self._left = _MOST
 
     def at(self, shares: Floats) -> Run:
         """The run at a point of the unit cube."""
         key = np.asarray(shares).tobytes()  # methods ask for objective, limits and slopes apart
         if self._seen is None or self._seen[0] != key:
+            self._left -= 1
+            if self._left < 0:
+                raise _EndedError
             self._seen = key, self.runs.at(self.start, self.problem.row(np.asarray(shares)))
             self._note(self._seen[1])
         return self._seen[1]
@@ -95,14 +105,23 @@ class Search:
         if first.reason:
             return None
         solve = {"least-squares": self._squares, "slsqp": self._slsqp}.get(self.method, self._trust)
+        if len(first.residuals[0]) and self.method == "slsqp":
+            self._rounds(self._squares)  # SLSQP does not use that they are squares
+        self._rounds(solve)
+        return self.best
+
+    def _rounds(self, solve: Callable[[Floats, Run], None]) -> None:
+        """Search from the best run with new scales until nothing is gained."""
         for _ in range(_ROUNDS):
             before = self.best
             assert before is not None
-            solve(self.problem.shares(before.row), before)
+            self._left = _MOST
+            with suppress(_EndedError):
+                solve(self.problem.shares(before.row), before)
+            self._left = _MOST
             self._snap()
             if self.best is before or self._is_close(before):
                 break
-        return self.best
 
     def _is_close(self, before: Run) -> bool:
         """Whether the best run is hardly better than an earlier one."""
@@ -151,97 +170,53 @@ class Search:
             return float(told[1]) if told else 0.0
         return 0.0
 
-    def _functions(self, first: Run) -> tuple[Callable[..., Any], Callable[..., Any] | None]:
-        """The scaled objective and the scaled room in the limits, each with its derivatives.
-
-        A failed run is a wall: larger than the last objective, without slopes.
-        """
-        sign, rates = self.problem.sign, self.problem.rates
-        power = 2 if self.problem.is_square else 1
-
-        def smooth(run: Run) -> tuple[float, Floats]:
-            slope = np.nan_to_num(run.slope) * rates(run.row)
-            if power == 1:
-                return sign * run.objective, sign * slope
-            return sign * run.objective**2, sign * 2.0 * run.objective * slope
-
-        value, slope = smooth(first)
-        scale = max(abs(value), float(np.abs(slope).max(initial=0.0))) or 1.0
-
-        def objective(shares: Floats) -> tuple[float, Floats]:
-            run = self.at(shares)
-            if not run.reason:
-                value, slope = smooth(run)
-                return value / scale, slope / scale
-            known = smooth(self._last or first)[0] / scale
-            return known + 1.0 + abs(known), np.zeros(len(shares))
-
-        if not len(first.room):
-            return objective, None
-        of_limits = np.abs(first.room_slopes * rates(first.row)).max(axis=1)
-        sizes = np.maximum(np.maximum(first.sizes, np.nan_to_num(of_limits)), 1e-300)
-
-        def room(shares: Floats) -> tuple[Floats, Floats]:
-            run = self.at(shares)
-            run = (self._last or first) if run.reason else run
-            slopes = np.nan_to_num(run.room_slopes) * rates(run.row)
-            return run.room / sizes, slopes / sizes[:, None]
-
-        return objective, room
-
     def _slsqp(self, shares: Floats, first: Run) -> None:
-        objective, room = self._functions(first)
-        limits = (
-            []
-            if room is None
-            else [{"type": "ineq", "fun": lambda u: room(u)[0], "jac": lambda u: room(u)[1]}]
-        )
+        of = Smooth(self.problem, self.at, (shares, first))
         scipy().minimize(
-            objective,
-            shares,
+            of.objective,
+            of.start,
             jac=True,
-            bounds=[(0.0, 1.0)] * len(shares),
-            constraints=limits,
+            bounds=list(zip(*of.bounds, strict=True)),
+            constraints=[{"type": "ineq", "fun": of.room, "jac": of.room_slopes}]
+            if of.has_room
+            else [],
             method="SLSQP",
             options={"ftol": _SMALL, "maxiter": _MOST},
         )
 
     def _trust(self, shares: Floats, first: Run) -> None:
-        objective, room = self._functions(first)
+        of = Smooth(self.problem, self.at, (np.clip(shares, 1e-6, 1.0 - 1e-6), first))
         optimize = scipy()
-        limits = (
-            []
-            if room is None
-            else [
-                optimize.NonlinearConstraint(
-                    lambda u: room(u)[0], 0.0, np.inf, jac=lambda u: room(u)[1]
-                )
-            ]
-        )
+        limits = optimize.NonlinearConstraint(of.room, 0.0, np.inf, jac=of.room_slopes)
         optimize.minimize(
-            objective,
-            np.clip(shares, 1e-6, 1.0 - 1e-6),
+            of.objective,
+            of.start,
             jac=True,
-            bounds=optimize.Bounds(0.0, 1.0, keep_feasible=True),
-            constraints=limits,
+            bounds=optimize.Bounds(*of.bounds, keep_feasible=True),
+            constraints=[limits] if of.has_room else [],
             method="trust-constr",
             options={"gtol": 1e-10, "xtol": 1e-12, "maxiter": _MOST},
         )
 
     def _squares(self, shares: Floats, first: Run) -> None:
+        """Least squares; the excess of a limit is a further residual."""
         size = float(np.linalg.norm(first.residuals[0])) or 1.0
+
+        def of(run: Run) -> Floats:
+            return np.append(run.residuals[0] / size, np.minimum(run.room / run.sizes, 0.0))
 
         def residuals(at: Floats) -> Floats:
             run = self.at(at)
             if not run.reason:
-                return run.residuals[0] / size
-            known = (self._last or first).residuals[0] / size
-            return np.abs(known) * 10.0 + 1.0
+                return of(run)
+            return np.abs(of(self._last or first)) * 10.0 + 1.0
 
         def slopes(at: Floats) -> Floats:
             run = self.at(at)
             run = (self._last or first) if run.reason else run
-            return np.asarray(run.residuals[1] * self.problem.rates(run.row) / size)
+            excess = np.where(run.room < 0.0, 1.0 / run.sizes, 0.0)[:, None]
+            rows = np.vstack([run.residuals[1] / size, np.nan_to_num(run.room_slopes) * excess])
+            return np.asarray(rows * self.problem.rates(run.row))
 
         scipy().least_squares(
             residuals,
