@@ -167,6 +167,17 @@ macro_rules! forces {
             pub fn limit(&self, at: &Situation<'_, S>) -> (S, Wrench<S>) {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::limit(e, at),)+ }
             }
+            /// The reserve while the force holds. It is positive until friction slips or a contact separates.
+            pub fn reserve(&self, at: &Situation<'_, S>) -> S {
+                match (at.mode, self.behaviour()) {
+                    (Mode::Holds(_), Some(Behaviour::Sticks)) => {
+                        let left = self.limit(at).0 - at.multiplier.abs();
+                        if self.only_pushes() { left.min(-at.multiplier) } else { left }
+                    }
+                    (Mode::Holds(side), _) => S::constant(side) * at.multiplier,
+                    _ => S::constant(f64::INFINITY),
+                }
+            }
             /// Whether friction acts in one direction only.
             pub fn only_pushes(&self) -> bool {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::only_pushes(e),)+ }

@@ -114,7 +114,7 @@ pub mod forces {
 pub mod test_elements;
 
 use crate::expression::Tape;
-use crate::math::{Lift, Local, Pose, Real, Vec2, Wrench};
+use crate::math::{Lift, Listed, Local, Pose, Real, Vec2, Wrench};
 pub use apart::{Apart, Way};
 pub use attachment::Attachment;
 pub use clearance::Clearance;
@@ -208,6 +208,14 @@ pub fn catalogue() -> Vec<(Group, Table)> {
     tables.retain(|(group, _)| *group != Group::Forces);
     tables.extend(force_tables());
     tables
+}
+
+/// The equation that holds the angle of body j relative to body i at a value.
+pub fn holding_angle(i: BodyId, j: BodyId, value: Tape) -> Constraint<Tape> {
+    let turned = |body| Followed::from(CoordinateOf { body, coordinate: Coordinate::Angle });
+    let moving = [(j, 1.0), (i, -1.0)].into_iter().filter(|(body, _)| !body.is_ground());
+    let terms = moving.map(|(body, factor)| (turned(body), Tape::from(factor))).list();
+    Constraint::Coupling(Coupling { terms, value, unit: Some(QuantityKind::Angle) })
 }
 
 /// The driver that holds a position quantity at a value. Assembly uses it for the quantities in `set`.

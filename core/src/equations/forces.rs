@@ -244,21 +244,8 @@ pub fn reserve<S: Real>(
     motions: &Motions<S>,
     acting: Acting<'_, S>,
 ) -> S {
-    let item = &model.forces[k];
-    let element = at_state(model, item, motions, acting);
-    let at = reported(model, k, motions, acting);
-    match (item.mode, element.behaviour()) {
-        (Mode::Holds(_), Some(Behaviour::Sticks)) => {
-            let left = element.limit(&at).0 - at.multiplier.abs();
-            if element.only_pushes() {
-                left.min(-at.multiplier)
-            } else {
-                left
-            }
-        }
-        (Mode::Holds(side), _) => S::constant(side) * at.multiplier,
-        _ => S::constant(f64::INFINITY),
-    }
+    let element = at_state(model, &model.forces[k], motions, acting);
+    element.reserve(&reported(model, k, motions, acting))
 }
 
 /// The results of force `k` in addition to its wrenches, in `out`.

@@ -124,7 +124,7 @@ pub(super) fn correct<S: Real>(
     let (least, light) = ([0.0, LEAST * most(b[0])], matrix.is_light());
     // a ridge must stay where rows are dependent
     let settles = light && !matrix.regularised();
-    let mut last = f64::INFINITY;
+    let (mut last, first) = (f64::INFINITY, most(&solution[at..]));
     for corrections in 1..=MOST {
         put_remainder(of, masses, b, solution, correction);
         matrix.solve(correction);
@@ -158,7 +158,9 @@ pub(super) fn correct<S: Real>(
         (matrix.jacobian()[entry as usize] * solution[column as usize]).largest_magnitude()
     };
     let moves = matrix.plan().positions.iter().map(closes).fold(0.0, f64::max);
-    let rounded = ROUNDED * heaviest * moves;
+    // and without forces, of those of the first solution
+    let unloaded = if most(b[0]) <= LEAST * first { LEAST_TERMS * first } else { 0.0 };
+    let rounded = unloaded.max(ROUNDED * heaviest * moves);
     let lam = solution[at..].iter().map(|x| x.abs().max(S::constant(rounded))).list();
     let terms = terms(model, masses, matrix.jacobian(), b, [&solution[..n], &lam]);
     significant(&correction[..n], &terms).map_or(Ok(()), |column| Err(Breakdown::Column(column)))

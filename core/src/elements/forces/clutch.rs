@@ -4,13 +4,12 @@
 //! the torque then has any value up to the capacity, and an equation holds φⱼ - φᵢ. A one-way clutch only pushes: its
 //! torque on body j is not negative, so that body j may run ahead.
 
-use crate::elements::joints::Coupling;
 use crate::elements::{
-    element, Behaviour, BodyId, Constraint, Coordinate, CoordinateOf, Followed, Force, Mark, Mode,
-    Nature, Part, QuantityKind, ResultQuantity, SceneSymbol, Situation, Wrenches,
+    element, holding_angle, Behaviour, BodyId, Constraint, Force, Mark, Mode, Nature, Part,
+    ResultQuantity, SceneSymbol, Situation, Wrenches,
 };
 use crate::expression::Tape;
-use crate::math::{Listed, Real, Wrench};
+use crate::math::{Real, Wrench};
 
 element! {
     /// Friction clutch or brake: with ω = omega_j - omega_i, the torque on body j is -capacity × sign ω
@@ -105,14 +104,7 @@ impl Force for Clutch {
     }
 
     fn holding(e: &Clutch<Tape>, _: f64, value: f64) -> Option<Constraint<Tape>> {
-        let turned = |body| -> Followed<Tape> {
-            CoordinateOf { body, coordinate: Coordinate::Angle }.into()
-        };
-        let both = [(e.j, 1.0), (e.i, -1.0)];
-        let moving = both.into_iter().filter(|(body, _)| !body.is_ground());
-        let terms = moving.map(|(body, factor)| (turned(body), Tape::from(factor))).list();
-        let (value, unit) = (Tape::from(value), Some(QuantityKind::Angle));
-        Some(Constraint::Coupling(Coupling { terms, value, unit }))
+        Some(holding_angle(e.i, e.j, Tape::from(value)))
     }
 
     fn fault(e: &Clutch) -> Option<(&'static str, String)> {
