@@ -247,6 +247,18 @@ impl<S: Real> Augmented<S> {
         self.light.as_ref().is_some_and(|light| light.any)
     }
 
+    /// The kinetic energy of the inertia that light bodies have in the matrix only. Rounding errors of works are small
+    /// fractions of it.
+    pub fn added_energy(&self, motions: &[Motion<S>]) -> f64 {
+        let added = self.light.iter().flat_map(|light| &light.added);
+        let of_body = |(motion, [mass, inertia]): (&Motion<S>, &[f64; 2])| {
+            let [speed, omega] = [motion.twist.velocity.norm(), motion.twist.omega];
+            let [speed, omega] = [speed, omega].map(|x| x.largest_magnitude());
+            0.5 * (mass * speed * speed + inertia * omega * omega)
+        };
+        motions.iter().skip(1).zip(added).map(of_body).sum()
+    }
+
     /// Solves in place. x has the parts (q, multipliers), with or without the unknowns that pad the last group.
     pub fn solve(&self, x: &mut [S]) {
         let (n, m) = (self.plan.pattern.n_unknowns(), self.plan.pattern.n_rows());

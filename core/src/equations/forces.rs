@@ -7,8 +7,7 @@ use super::powers::Powers;
 use super::reactions::{self, Frame};
 use super::Compiled;
 use crate::elements::{
-    Behaviour, BodyId, Force, ForceElement, Held, Mode, Nature, Pooled, Situation, VisitForces,
-    Wrenches,
+    BodyId, Force, ForceElement, Held, Mode, Nature, Pooled, Situation, VisitForces, Wrenches,
 };
 use crate::math::{Motion, Real, Vec2, Wrench};
 use crate::model::{Body, ForceItem, Model};

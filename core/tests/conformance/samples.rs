@@ -3,7 +3,8 @@
 use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
 use kempe::elements::forces::{
-    Actuator, Bushing, GeneralizedForce, Motor, PointForce, SpringDamper, Torque, TorsionSpring,
+    Actuator, Bushing, Clutch, GeneralizedForce, Motor, PointForce, SpringDamper, Torque,
+    TorsionSpring,
 };
 use kempe::elements::joints::{
     Belt, Coupling, Distance, FlatOnCurve, Gear, GivenConstraint, PinInSlot, PointOnCurve, Rack,
@@ -232,6 +233,10 @@ pub fn forces() -> Vec<ForceElement> {
     }));
     all.extend(motors());
     all.extend(crate::rubbing::frictions());
+    for one_way in [false, true] {
+        let clutch = Clutch { i: BodyId(1), j: BodyId(2), capacity: 1.7, one_way };
+        all.push(ForceElement::Clutch(clutch));
+    }
     for frame in [Frame::Global, Frame::I, Frame::J] {
         let (force, i) = ([1.2, -0.5], BodyId(1));
         all.push(ForceElement::PointForce(PointForce { i, j: on(2, -1.1, 0.4), force, frame }));

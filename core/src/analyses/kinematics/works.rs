@@ -125,7 +125,8 @@ impl<'a> Works<'a> {
         let h = to.t - from.t;
         let ends = [self.powers(from), self.powers(to)];
         let kinetic = energy::kinetic(self.model, &self.workspace.motions);
-        self.scale = self.scale.max(kinetic);
+        let added = self.workspace.matrix.added_energy(&self.workspace.motions);
+        self.scale = self.scale.max(kinetic).max(added);
         let works = self.over(&Quintic::new(from, to), [0.0, 1.0], ends, DEPTH);
         dense.t.push(to.t);
         dense.y.extend([&from.q[..], self.rates(from), &self.z, &self.total].concat());
