@@ -229,8 +229,8 @@ mod tests {
         let fixed = [-1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
         let rows = [pose(0.3, [0.1, 0.0]), pose(0.8, [0.2, 0.1]), pose(1.1, [0.0, 0.3]), fixed];
         for [one, a, b, c, d, u, v] in dyads(&rows).expect("independent") {
-            assert!((c - one).abs() < 1e-12 && (u - a * c - b * d).abs() < 1e-12);
-            assert!((v - c * b + d * a).abs() < 1e-12);
+            assert!((c - one).abs() < 1e-12 && (u * one - a * c - b * d).abs() < 1e-12);
+            assert!((v * one - c * b + d * a).abs() < 1e-12);
         }
         let same = [rows[0], rows[1], rows[1], fixed];
         assert!(dyads(&same).is_none());

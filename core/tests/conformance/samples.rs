@@ -233,10 +233,6 @@ pub fn forces() -> Vec<ForceElement> {
     }));
     all.extend(motors());
     all.extend(crate::rubbing::frictions());
-    for one_way in [false, true] {
-        let clutch = Clutch { i: BodyId(1), j: BodyId(2), capacity: 1.7, one_way };
-        all.push(ForceElement::Clutch(clutch));
-    }
     for frame in [Frame::Global, Frame::I, Frame::J] {
         let (force, i) = ([1.2, -0.5], BodyId(1));
         all.push(ForceElement::PointForce(PointForce { i, j: on(2, -1.1, 0.4), force, frame }));
@@ -250,6 +246,10 @@ pub fn forces() -> Vec<ForceElement> {
     all.extend(springs());
     all.extend(crate::touching::stops());
     all.extend(crate::touching::contacts());
+    for one_way in [false, true] {
+        let clutch = Clutch { i: BodyId(1), j: BodyId(2), capacity: 1.7, one_way };
+        all.push(ForceElement::Clutch(clutch));
+    }
     all
 }
 
