@@ -95,10 +95,11 @@ def test_the_source_distribution_has_what_a_build_needs(
     assert {f"core/src/{name}" for name in tracked("core/src")} <= inside
     assert {f"drawing/src/{name}" for name in tracked("drawing/src")} <= inside
     assert {f"exchange/src/{name}" for name in tracked("exchange/src")} <= inside
+    assert {f"synthesis/src/{name}" for name in tracked("synthesis/src")} <= inside
     assert {f"bindings/python/{name}" for name in tracked("bindings/python")} <= inside
     assert {f"python/{name}" for name in tracked("python")} <= inside
     folders = {name.partition("/")[0] for name in inside if "/" in name}
-    assert folders == {"core", "drawing", "exchange", "bindings", "python"}
+    assert folders == {"core", "drawing", "exchange", "synthesis", "bindings", "python"}
     assert not [name for name in inside if name.endswith((".so", ".pyd", ".dylib"))]
     page = ROOT / "python" / STUDIO
     assert archive_path.stat().st_size - page.stat().st_size < 2e6

@@ -75,6 +75,7 @@ FUNCTIONS: dict[str, tuple[Draw, str]] = {
 }
 #: Functions that draw results which are not motions; their own tests draw them.
 OF_RESULTS = (
+    "burmester",
     "mode_shape",
     "path",
     "rest_position",

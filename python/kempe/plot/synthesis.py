@@ -99,7 +99,8 @@ def _panel(axes: Axes, found: Found, one: Candidate, number: int) -> None:
     axes.set_title(told + (f"\n{one.defects[0]}" if one.defects else ""), fontsize=8)
     axes.set_aspect("equal", adjustable="datalim")
     axes.tick_params(labelsize=7)
-    axes.set_xlabel(f"x [{unit.unit}]", fontsize=7, labelpad=1)
+    axes.set_xlabel(f"x / {unit.unit}", fontsize=7, labelpad=1)
+    axes.set_ylabel(f"y / {unit.unit}", fontsize=7, labelpad=1)
 
 
 def _plate(corners: list[Floats]) -> Any:
@@ -151,7 +152,7 @@ def burmester(curves: Burmester, *, ax: Axes | None = None) -> Axes:
         axes.plot(*at.T / unit.divisor, ".", markersize=5.0, label="poses", **_TASK)
         _frames(axes, at / unit.divisor, curves.poses[:, 2].tolist())
         axes.set_aspect("equal")
-        axes.set_xlabel(f"x [{unit.unit}]")
-        axes.set_ylabel(f"y [{unit.unit}]")
+        axes.set_xlabel(f"x / {unit.unit}")
+        axes.set_ylabel(f"y / {unit.unit}")
         axes.legend(loc="upper right", frameon=True)
     return axes
