@@ -122,7 +122,7 @@ def _frames(axes: Axes, at: Floats, angles: Sequence[Any]) -> None:
 
     size = _AXIS * np.ptp(at, axis=0).max()
     for place, angle in zip(at, angles, strict=True):
-        turned = value(angle, "angle")
+        turned = value(angle, "angle", "rad")
         for k, shade in enumerate(("#C2184B", "#E58CA8")):
             way = size * np.array([np.cos(turned + k * np.pi / 2), np.sin(turned + k * np.pi / 2)])
             axes.plot(*np.array([place, place + way]).T, color=shade, linewidth=1.0, zorder=3.9)

@@ -82,12 +82,12 @@ def limits(
         refuse("direction", f"{direction!r}; must be 'ccw', 'cw' or None")
     least, box = transmission_angle, None
     if within is not None:
-        box = tasks.rows(within, "within", 2, "[(x_min, x_max), (y_min, y_max)]")
+        box = tasks.rows(within, "within", ["m", "m"], "[(x_min, x_max), (y_min, y_max)]")
         if box.shape != (2, 2) or (box[:, 1] < box[:, 0]).any():
             refuse("within", "must be [(x_min, x_max), (y_min, y_max)]")
     return Limits(
         defects == "tell",
-        None if least is None else tasks.value(least, "transmission_angle"),
+        None if least is None else tasks.value(least, "transmission_angle", "rad"),
         grashof or None,
         box,
         _DIRECTIONS[direction],

@@ -192,7 +192,7 @@ def masses_of(given: Mapping[str, Any] | None) -> dict[str, float]:
     for name, mass in (given or {}).items():
         if name not in (*_LINKS[:3], "slider"):
             refuse("masses", f"{name!r}; must be crank, coupler, rocker or slider")
-        found[name] = value(mass, f"masses.{name}")
+        found[name] = value(mass, f"masses.{name}", "kg")
         if not found[name] > 0.0:
             refuse(f"masses.{name}", f"{mass!r}; must be > 0")
     return found

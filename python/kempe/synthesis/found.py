@@ -49,6 +49,8 @@ class Found(Sequence[Candidate]):
     @overload
     def __getitem__(self, k: slice) -> Sequence[Candidate]: ...
     def __getitem__(self, k: int | slice) -> Candidate | Sequence[Candidate]:
+        if isinstance(k, int) and not -len(self) <= k < len(self):
+            raise IndexError(f"no candidate {k} in {self!r}; defects='tell' keeps all")
         return self._candidates[k]
 
     def __len__(self) -> int:

@@ -65,13 +65,13 @@ def function(
         ModelError: no four-bar couples the angles, or an argument is invalid.
     """
     assemble.families(family)
-    asked, length = assemble.limits(**limits), tasks.value(ground, "ground")
+    asked, length = assemble.limits(**limits), tasks.value(ground, "ground", "m")
     for name, given in (("scales", scales), ("offsets", offsets)):
         if given not in ("fixed", "free", None):
             refuse(name, f"{given!r}; must be 'fixed' or 'free'")
     if not length > 0.0:
         refuse("ground", f"{ground!r}; must be > 0")
-    wanted = tasks.pairs(pairs)
+    wanted = tasks.pairs(pairs, "" if scales == "free" else "rad")
     fixed = (len(wanted) <= 3 and scales == "fixed") if offsets is None else offsets == "fixed"
     unknowns = 5 - 2 * fixed + 2 * (scales == "free")
     complete = scales == "fixed" and len(wanted) == unknowns

@@ -90,7 +90,7 @@ def path(
 
 
 def _angles(given: Sequence[Number], n: int) -> Floats:
-    found = np.array([tasks.value(x, f"angles[{k}]") for k, x in enumerate(given, 1)])
+    found = np.array([tasks.value(x, f"angles[{k}]", "rad") for k, x in enumerate(given, 1)])
     if len(found) != n:
         refuse("angles", f"{len(found)} for {n} points; one for each point")
     at = tasks.turns(found)

@@ -22,19 +22,29 @@ Pose: TypeAlias = Sequence[Number]
 SAME = 1e-9
 
 
-def value(given: Any, path: str) -> float:
-    """A number or the text of a formula without names, in SI units and rad."""
+def value(given: Any, path: str, unit: str) -> float:
+    """A number or the text of a formula without names, in SI units and rad.
+
+    Raises:
+        ModelError: it is no number, or has a unit other than this one; with "" any unit is right.
+    """
     found = checked(given, path)
     if not isinstance(found, str):
         return float(found)
     try:
-        return float(_core.formula_value(found, [], [])[0])
+        own = _core.formula_unit(found, [], [])
+        result = float(_core.formula_value(found, [], [])[0])
     except KempeError as error:
         refuse(path, f"{given!r}: {error.args[0]}")
+    if unit and own not in ("", unit):
+        what = "an angle, such as '30 deg'" if unit == "rad" else f"in {unit}"
+        refuse(path, f"{given!r} is in {own}; must be {what}")
+    return result
 
 
-def rows(given: Any, path: str, width: int, example: str) -> Floats:
-    """Rows of numbers, (n, width)."""
+def rows(given: Any, path: str, units: Sequence[str], example: str) -> Floats:
+    """Rows of numbers with these units, (n, len(units))."""
+    width = len(units)
     try:
         listed = [list(row) for row in given]
     except TypeError:
@@ -42,7 +52,10 @@ def rows(given: Any, path: str, width: int, example: str) -> Floats:
     for k, row in enumerate(listed, 1):
         if len(row) != width or isinstance(given[k - 1], str):
             refuse(f"{path}[{k}]", f"{given[k - 1]!r}; must be {width} numbers: {example}")
-    found = [[value(x, f"{path}[{k}]") for x in row] for k, row in enumerate(listed, 1)]
+    found = [
+        [value(x, f"{path}[{k}]", unit) for x, unit in zip(row, units, strict=True)]
+        for k, row in enumerate(listed, 1)
+    ]
     return np.array(found, dtype=np.float64).reshape(-1, width)
 
 
@@ -52,7 +65,7 @@ def poses(given: Any) -> tuple[Complexes, Floats]:
     Raises:
         ModelError: they are not.
     """
-    found = rows(given, "poses", 3, "[(0, 0, 0), (0.1, 0.2, '30 deg')]")
+    found = rows(given, "poses", ["m", "m", "rad"], "[(0, 0, 0), (0.1, 0.2, '30 deg')]")
     if len(found) < 2:
         refuse("poses", f"{len(found)} pose{'' if len(found) == 1 else 's'}; at least two")
     places = found[:, 0] + 1j * found[:, 1]
@@ -67,7 +80,7 @@ def points(given: Any) -> Complexes:
     Raises:
         ModelError: they are not.
     """
-    found = rows(given, "points", 2, "[(0, 0), (0.1, 0.2)]")
+    found = rows(given, "points", ["m", "m"], "[(0, 0), (0.1, 0.2)]")
     if len(found) < 2:
         refuse("points", f"{len(found)} point{'' if len(found) == 1 else 's'}; at least two")
     places = found[:, 0] + 1j * found[:, 1]
@@ -75,13 +88,13 @@ def points(given: Any) -> Complexes:
     return np.asarray(places)
 
 
-def pairs(given: Any) -> Floats:
-    """Pairs of angles; at least two, and no crank angle occurs twice.
+def pairs(given: Any, unit: str = "rad") -> Floats:
+    """Pairs of angles, or of numbers in any unit if it is ""; no crank angle occurs twice.
 
     Raises:
         ModelError: they are not.
     """
-    found = rows(given, "pairs", 2, "[('10 deg', '35 deg'), ('40 deg', '60 deg')]")
+    found = rows(given, "pairs", [unit, unit], "[('10 deg', '35 deg'), ('40 deg', '60 deg')]")
     if len(found) < 2:
         refuse("pairs", f"{len(found)} pair{'' if len(found) == 1 else 's'}; at least two")
     _distinct(turns(found[:, 0]), "pairs", "pair", "have the same crank angle")
@@ -111,7 +124,7 @@ def pivots(given: Mapping[str, Sequence[Number]] | None, names: str) -> dict[str
     for name, at in (given or {}).items():
         if name not in names.split():
             refuse("pivots", f"{name!r}; must be one of {names}")
-        x, y = rows([at], f"pivots.{name}", 2, "(0, 0)")[0]
+        x, y = rows([at], f"pivots.{name}", ["m", "m"], "(0, 0)")[0]
         found[name] = complex(x, y)
     if len(found) == 2 and len(set(found.values())) == 1:
         refuse("pivots", "O and D are the same; move one of them")
