@@ -26,7 +26,7 @@ def value(given: Any, path: str, unit: str) -> float:
     """A number or the text of a formula without names, in SI units and rad.
 
     Raises:
-        ModelError: it is no number, or has a unit other than this one; with "" any unit is right.
+        ModelError: it is not a number, or its unit is not this one; "" allows any unit.
     """
     found = checked(given, path)
     if not isinstance(found, str):
