@@ -1,12 +1,9 @@
 //! Extreme values at the outputs, with derivatives. Quantities of a whole run have no other extreme values.
 
 use super::extremes::alike;
-use super::statistics::{Found, SlopeRows};
+use super::statistics::{Found, SlopeRows, RIVAL};
 use crate::analyses::sweep::Statistic;
 use crate::math::Listed;
-
-/// Values that differ by less than this fraction are equally large.
-const RIVAL: f64 = 1e-9;
 
 impl SlopeRows {
     /// The derivatives of the largest value, the least value or the largest magnitude of measure `k` at some times.

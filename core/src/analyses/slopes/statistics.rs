@@ -10,7 +10,7 @@ const BESIDE: f64 = 1.0 / 32.0;
 /// Accuracy of the time of an extreme value, in steps of the run.
 const SEARCHED: f64 = 1e-4;
 /// Values that differ by less than this fraction are equally large.
-const RIVAL: f64 = 1e-9;
+pub(super) const RIVAL: f64 = 1e-9;
 
 /// The derivatives of a number by each variable, or the reason for which there are none.
 pub(super) type Found = Result<Vec<f64>, String>;
