@@ -6,6 +6,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
 
 TIGHT = kp.DOP853(rtol=1e-12, atol=1e-14)
 MASS, INERTIA = 2.0, 0.4
@@ -57,6 +58,46 @@ def test_a_rotational_spring_damper_with_preload(preload: float) -> None:
     assert_allclose(sol["rotor"].angle, truth, rtol=0, atol=1e-9)
     torque = 9 * (truth - 0.5) + 0.3 * sol["rotor"].omega + preload
     assert_allclose(sol["spring"].torque(on="rotor"), -torque, rtol=0, atol=1e-8)
+    assert_allclose(sol.energy.balance, 0, atol=1e-9)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("only", ["tension", "compression"])
+@pytest.mark.parametrize("damping", [0.0, 2.0])
+def test_a_cord_with_a_preload_against_its_sense(only: Any, damping: float, size: float) -> None:
+    """A preload of -8 N at 50 N/m is a play of 0.16 m: without damping, the cord begins there.
+
+    With damping, the force in the play is what the damping has more than the preload. Energies are
+    those of the force of the formula, integrated by a method of the test.
+    """
+    sense = {"tension": 1.0, "compression": -1.0}[only]
+    stiffness, length, speed = 50.0, 1.0 * size, 2.0 * size
+    preload = -8.0 * sense * size
+    fields = {"stiffness": stiffness, "damping": damping, "free_length": length, "only": only}
+    m = mass_on_a_line(preload=preload, **fields)
+    start = {"mass.x": length - sense * 0.1 * size, "mass.y": 0, "mass.vx": sense * speed}
+    method = kp.DOP853(rtol=1e-12, atol=1e-14 * size)
+    sol = kp.dynamics(m, kp.assemble(m, start), t_end=1.2, output_step=0.01, method=method)
+
+    def force(stretch: float, rate: float) -> float:
+        """In the only sense, with the elongation in this sense."""
+        whole = stiffness * stretch + damping * rate - 8.0 * size
+        return max(0.0, whole) if stretch > 0 else 0.0
+
+    def slopes(_: float, y: Any) -> Any:
+        pull = force(y[0], y[1])
+        spring = max(0.0, stiffness * y[0] - 8.0 * size)
+        return [y[1], -pull / MASS, (pull - spring) * y[1] / size]
+
+    options = {"rtol": 1e-11, "atol": 1e-13 * size, "max_step": 2e-3, "t_eval": sol.t}
+    truth = solve_ivp(slopes, (0, 1.2), [-0.1 * size, speed, 0.0], **options).y
+    stretch = sense * (sol["mass"].x - length)
+    assert_allclose(stretch, truth[0], rtol=0, atol=2e-7 * size)
+    lost = sol.energy.dissipated
+    assert_allclose(lost, truth[2] * size, rtol=0, atol=2e-6 * size * size)
+    stored = np.maximum(0.0, stiffness * stretch - 8.0 * size) ** 2 / (2 * stiffness)
+    assert_allclose(sol.energy.potential, stored, rtol=0, atol=1e-9 * size * size)
+    assert np.diff(lost).min() >= -1e-9 * size * size
     assert_allclose(sol.energy.balance, 0, atol=1e-9)
 
 

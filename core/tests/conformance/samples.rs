@@ -214,6 +214,10 @@ pub fn forces() -> Vec<ForceElement> {
         preload: 0.4,
     })];
     all.push(ForceElement::Torque(Torque { i: BodyId(1), j: BodyId(2), torque: 1.3 }));
+    for one_way in [false, true] {
+        let clutch = Clutch { i: BodyId(1), j: BodyId(2), capacity: 1.7, one_way };
+        all.push(ForceElement::Clutch(clutch));
+    }
     all.push(ForceElement::Lag(Lag { i: BodyId(1), j: BodyId(2), stiffness: 4.0, time: 0.3 }));
     let (joint, i, j) = (JointId(0), BodyId(1), BodyId(2));
     all.push(ForceElement::Rubbing(Rubbing { joint, i, j, arm: 0.05, speed: 0.4 }));
@@ -246,10 +250,6 @@ pub fn forces() -> Vec<ForceElement> {
     all.extend(springs());
     all.extend(crate::touching::stops());
     all.extend(crate::touching::contacts());
-    for one_way in [false, true] {
-        let clutch = Clutch { i: BodyId(1), j: BodyId(2), capacity: 1.7, one_way };
-        all.push(ForceElement::Clutch(clutch));
-    }
     all
 }
 

@@ -10,7 +10,9 @@
 //!
 //! An element that only pulls is slack for l < l₀, and an element that only pushes is slack for l > l₀. A slack
 //! element has no force and no energy. Elsewhere, damping cannot reverse the sum k (l - l₀) + c l̇ + p: where it
-//! would, the force is zero, and the damper dissipates the power of the spring. Both changes are switches.
+//! would, the force is zero, and the damper dissipates the power of the spring. Both changes are switches. So is a
+//! third one: the spring begins where k (l - l₀) + p has the only sense. With a preload against this sense, that is
+//! beyond l₀, and V is the energy stored from there on, (k (l - l₀) + p)²/(2 k).
 
 use crate::elements::line::Line;
 use crate::elements::{
@@ -48,6 +50,7 @@ element! {
 /// The indices of the switches of an element with `only`.
 const TAUT: usize = 0;
 const ACTS: usize = 1;
+const STORES: usize = 2;
 
 /// The forces along the line, > 0 if they pull.
 struct Pull<S> {
@@ -59,6 +62,11 @@ struct Pull<S> {
     damping: S,
     /// The sum, > 0 in the only sense.
     sum: S,
+    /// The preload, > 0 in the only sense.
+    preload: S,
+    /// Positive where the spring acts: the part of stiffness and preload in the only sense, or 1 where the preload
+    /// has this sense.
+    stores: S,
 }
 
 fn pull<S: Real>(
@@ -71,10 +79,12 @@ fn pull<S: Real>(
     let elastic = e.stiffness * stretch + e.preload;
     let damping = e.damping * line.u.dot(apart(e, at));
     let sum = elastic + damping;
-    match only {
-        Only::Tension => Pull { beyond: stretch, elastic, damping, sum },
-        Only::Compression => Pull { beyond: -stretch, elastic, damping, sum: -sum },
-    }
+    let [beyond, preload, inner, sum] = match only {
+        Only::Tension => [stretch, e.preload, elastic, sum],
+        Only::Compression => [-stretch, -e.preload, -elastic, -sum],
+    };
+    let stores = S::select(-preload, inner, S::one());
+    Pull { beyond, elastic, damping, sum, preload, stores }
 }
 
 /// ḋ.
@@ -105,10 +115,11 @@ fn one_sense<S: Real>(
     at: &Situation<'_, S>,
     line: &Line<S>,
 ) -> [Vec2<S>; 2] {
-    let Pull { beyond, elastic, damping, sum } = pull(e, only, at, line);
+    let Pull { beyond, elastic, damping, sum, stores, .. } = pull(e, only, at, line);
     let taut = |force: S| at.choose(TAUT, beyond, force, S::zero());
-    let damping = at.choose(ACTS, sum, damping, -elastic);
-    [-line.u.scale(taut(elastic)), -line.u.scale(taut(damping))]
+    let spring = at.choose(STORES, stores, elastic, S::zero());
+    let rest = at.choose(ACTS, sum, damping + (elastic - spring), -spring);
+    [-line.u.scale(taut(spring)), -line.u.scale(taut(rest))]
 }
 
 impl Force for SpringDamper {
@@ -154,15 +165,15 @@ impl Force for SpringDamper {
     fn switch_count<S>(e: &SpringDamper<S>) -> usize {
         match e.only {
             None => 0,
-            Some(_) => 2,
+            Some(_) => 3,
         }
     }
 
     #[inline]
     fn switches<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>, out: &mut [S]) {
         if let Some(only) = e.only {
-            let Pull { beyond, sum, .. } = pull(e, only, at, &Line::new(at, &e.i, &e.j));
-            (out[TAUT], out[ACTS]) = (beyond, sum);
+            let Pull { beyond, sum, stores, .. } = pull(e, only, at, &Line::new(at, &e.i, &e.j));
+            (out[TAUT], out[ACTS], out[STORES]) = (beyond, sum, stores);
         }
     }
 
@@ -183,13 +194,14 @@ impl Force for SpringDamper {
     fn potential<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>) -> S {
         let line = Line::new(at, &e.i, &e.j);
         let stretch = line.length - e.free_length;
-        let energy = S::constant(0.5) * e.stiffness * stretch * stretch + e.preload * stretch;
-        match e.only {
-            None => energy,
-            Some(only) => {
-                let Pull { beyond, .. } = pull(e, only, at, &line);
-                at.choose(TAUT, beyond, energy, S::zero())
-            }
-        }
+        let half = S::constant(0.5);
+        let energy = half * e.stiffness * stretch * stretch + e.preload * stretch;
+        let Some(only) = e.only else { return energy };
+        let Pull { beyond, elastic, preload, stores, .. } = pull(e, only, at, &line);
+        let stiffness = S::select(e.stiffness, e.stiffness, S::one());
+        let beyond_play =
+            at.choose(STORES, stores, half * elastic * elastic / stiffness, S::zero());
+        let stored = S::select(-preload, beyond_play, energy);
+        at.choose(TAUT, beyond, stored, S::zero())
     }
 }

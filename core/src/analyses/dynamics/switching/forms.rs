@@ -43,8 +43,9 @@ impl SwitchForm {
                     law.map(&mut look);
                 }
                 // a contact has two switches: its onset, and the sign of its force
+                let contacts = item.element.clearances().len();
                 match switch.checked_sub(item.first_switch) {
-                    Some(own) if own % 2 == 0 => Self::Clearance(k, own / 2),
+                    Some(own) if own % 2 == 0 && own / 2 < contacts => Self::Clearance(k, own / 2),
                     Some(own)
                         if matches!(
                             item.element.behaviour(),
