@@ -30,12 +30,18 @@ pub(super) fn turned<S: Real>([r_i, r_j]: [S; 2], at: &At<'_, S>) -> S {
 
 /// r_i (φ_i - θ) + r_j (φ_j - θ) - offset with θ the direction of `d`, modulo 2π (r_i + r_j), nearest 0. The radius
 /// r_j is negative if both wheels turn in the same sense. With α = (r_i φ_i + r_j φ_j - offset)/(r_i + r_j), it is
-/// (r_i + r_j) times the direction of `d` seen from α, mirrored, which has no jump where θ has one.
+/// (r_i + r_j) times the direction of `d` seen from α, mirrored, which has no jump where θ has one. Wheels that are
+/// exactly half a turn out of mesh are common at starts; [`CUT`] gives all of them the same sign.
 pub(super) fn meshed<S: Real>(d: Vec2<S>, radii: [S; 2], offset: S, at: &At<'_, S>) -> S {
     let sum = radii[0] + radii[1];
-    let seen = Rotation::new((turned(radii, at) - offset) / sum).inverse(d);
-    sum * (-seen.y).atan2(seen.x)
+    let Local { x, y } = Rotation::new((turned(radii, at) - offset) / sum).inverse(d);
+    let (sin, cos) = CUT.sin_cos();
+    let turn = |a: S, b: S| S::constant(cos) * a + S::constant(sin) * b;
+    sum * (turn(-y, x).atan2(turn(x, y)) - S::constant(CUT))
 }
+
+/// Half a turn out of mesh, by which the sign of a distance from the mesh changes, is this angle before π, rad.
+const CUT: f64 = 1e-6;
 
 /// The change of the equation by a whole turn of θ, 2π `radius`.
 pub(super) fn whole_turn<S: Real>(radius: S) -> S {
