@@ -191,6 +191,35 @@ def rack_and_pinion(of: Units) -> Made:
     return Made(m, measures, {"bar.x": of.near(0.3) * s, "bar.vx": s * of.rate})
 
 
+def loose_teeth(of: Units) -> Made:
+    """A wheel is thrown at the teeth of a loose wheel, which moves a loose rack under a spring."""
+    s, w = of.size, of.rate
+    m = of.model(
+        weight=False,
+        r1=(0.2, s),
+        r2=(0.5, s),
+        b=(0.04, s),
+        e=(0.5, 1),
+        h=(0.05, s),
+        c=(0.3, 1),
+        k=(2, of.stiffness),
+    )
+    m.ground.points(O=(0, 0), Q=("r1 + r2", 0), S=("r1 + r2", "-r2"))
+    for name, at in (("drive", "O"), ("wheel", "Q")):
+        of.disc(m, name, {"C": (0, 0)})
+        m.revolute(at, f"ground.{at}", f"{name}.C")
+    of.disc(m, "bar", {"P": (0, 0)})
+    m.translational("slide", "ground.S", "bar.P")
+    m.gear("teeth", "drive.C", "wheel.C", radii=("r1", "r2"), backlash="b", restitution="e")
+    m.rack("mesh", "bar.P", "wheel.C", radius="r2", backlash="h", restitution="c")
+    m.spring_damper("spring", "ground.O", "bar.P", stiffness="k", free_length=0.9 * s)
+    start = {"drive.angle": 0.0, "drive.omega": of.near(2) * w, "wheel.angle": 0.0}
+    start |= {"wheel.omega": 0.0, "bar.x": m.parameters["r1"] + m.parameters["r2"], "bar.vx": 0.0}
+    measures = ["wheel.angle.final", "drive.omega.final", "bar.x.final", "mesh.gap.final"]
+    measures += ["teeth.play.final", "energy.dissipated.final"]
+    return Made(m, measures, start, end=0.4, changes=True)
+
+
 def rolling_wheel(of: Units) -> Made:
     """A wheel with its mass centre beside its axis rolls along an incline."""
     s = of.size
@@ -322,6 +351,7 @@ JOINTS: list[Maker] = [
     gears,
     crossed_belt,
     rack_and_pinion,
+    loose_teeth,
     rolling_wheel,
     bead,
     roller,

@@ -2,10 +2,10 @@
 
 use super::closing::Closing;
 use crate::elements::derive::{columns_of, participants};
-use crate::elements::{At, Required};
+use crate::elements::{At, BodyId, Constraint, Required};
 use crate::equations::kinematics::Motions;
 use crate::math::{Listed, Motion, Pose};
-use crate::model::{column_scales, ConstraintItem, Model};
+use crate::model::{column_scales, Model};
 
 /// Largest relative deviation from the required value.
 const NEAR: f64 = 1e-6;
@@ -23,20 +23,41 @@ pub(super) struct Unmet {
     pub hint: &'static str,
 }
 
+/// A joint, with or without play.
+#[derive(Clone, Copy)]
+struct Needing<'m> {
+    name: &'m str,
+    bodies: &'m [BodyId],
+    element: &'m Constraint,
+}
+
+fn joints(model: &Model) -> impl Iterator<Item = Needing<'_>> {
+    let constraints = model.constraints.iter();
+    let rigid = constraints.map(|item| Needing {
+        name: &item.name,
+        bodies: &item.bodies,
+        element: &item.element,
+    });
+    rigid.chain(model.forces.iter().filter_map(|item| {
+        let element = item.element.joint()?;
+        Some(Needing { name: &item.name, bodies: &item.bodies, element })
+    }))
+}
+
 /// The first quantity that differs from its required value at `q`.
 pub(super) fn missed(model: &Model, t: f64, q: &[f64]) -> Option<Unmet> {
     let motions = Motions::at_rest(&model.layout, q);
-    model.constraints.iter().find_map(|item| {
+    joints(model).find_map(|item| {
         let all = required(item, &motions, t).into_iter();
-        all.filter_map(|required| wrong(item, &required)).next()
+        all.filter_map(|required| wrong(item.name, &required)).next()
     })
 }
 
 /// The first quantity that the mechanism does not hold at `q`, because it changes in an admissible motion.
 pub(super) fn loose(model: &Model, t: f64, q: &[f64]) -> Option<Unmet> {
     let motions = Motions::at_rest(&model.layout, q);
-    let needs = |item: &&ConstraintItem| !required(item, &motions, t).is_empty();
-    let mut needing = model.constraints.iter().filter(needs).peekable();
+    let needs = |item: &Needing<'_>| !required(*item, &motions, t).is_empty();
+    let mut needing = joints(model).filter(needs).peekable();
     needing.peek()?;
     let mut closing = Closing::new(model, t, &|| false);
     needing.find_map(|item| {
@@ -45,7 +66,7 @@ pub(super) fn loose(model: &Model, t: f64, q: &[f64]) -> Option<Unmet> {
         let free = |(_, gradient): &(_, Vec<f64>)| free(&mut closing, q, gradient) > HELD;
         let (required, _) = all.zip(gradients).find(free)?;
         Some(Unmet {
-            name: item.name.clone(),
+            name: item.name.to_string(),
             gap: 0.0,
             message: format!(
                 "joint {}: the mechanism does not hold the {}",
@@ -56,27 +77,27 @@ pub(super) fn loose(model: &Model, t: f64, q: &[f64]) -> Option<Unmet> {
     })
 }
 
-fn required(item: &ConstraintItem, motions: &[Motion], t: f64) -> Vec<Required<f64>> {
+fn required(item: Needing<'_>, motions: &[Motion], t: f64) -> Vec<Required<f64>> {
     let bodies: Vec<Pose> = item.bodies.iter().map(|b| motions[b.0].pose).list();
     item.element.requires(&At { bodies: &bodies, own: &[], t })
 }
 
-fn wrong(item: &ConstraintItem, required: &Required<f64>) -> Option<Unmet> {
+fn wrong(name: &str, required: &Required<f64>) -> Option<Unmet> {
     let Required { what, is, must, remedy } = required;
     let (wrong, needed) = match must {
         Some(must) => ((is - must).abs() > NEAR * must.abs(), format!("be {must:.6} m")),
         None => (*is <= f64::MIN_POSITIVE, "be > 0".to_string()),
     };
     wrong.then(|| Unmet {
-        name: item.name.clone(),
+        name: name.to_string(),
         gap: must.map_or(0.0, |must| (is - must).abs()),
-        message: format!("joint {}: the {what} is {is:.6} m; must {needed}", item.name),
+        message: format!("joint {name}: the {what} is {is:.6} m; must {needed}"),
         hint: remedy,
     })
 }
 
 /// The derivatives of the required quantities with respect to the coordinates, shape (n_q) each.
-fn gradients(model: &Model, item: &ConstraintItem, motions: &[Motion], t: f64) -> Vec<Vec<f64>> {
+fn gradients(model: &Model, item: Needing<'_>, motions: &[Motion], t: f64) -> Vec<Vec<f64>> {
     let count = required(item, motions, t).len();
     let mut all = vec![vec![0.0; model.layout.n_q]; count];
     let bodies: Vec<Motion> = item.bodies.iter().map(|b| motions[b.0]).list();

@@ -104,6 +104,10 @@ macro_rules! constraints {
         }
 
         impl<S: Clone> Constraint<S> {
+            /// The play of its teeth.
+            pub fn backlash(&self) -> Option<Backlash<S>> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::backlash(e),)+)+ }
+            }
             /// The geometry that the constraint fixes, for assembly.
             pub fn fixes(&self) -> Vec<Fixes<S>> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::fixes(e),)+)+ }

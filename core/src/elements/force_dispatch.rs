@@ -87,6 +87,10 @@ macro_rules! forces {
             pub fn result_quantities(&self) -> &'static [ResultQuantity] {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::result_quantities(e),)+ }
             }
+            /// The joint with play that the force is.
+            pub fn joint(&self) -> Option<&Constraint<S>> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::joint(e),)+ }
+            }
             /// The joint on whose reaction the force depends.
             pub fn reaction(&self) -> Option<JointId> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::reaction(e),)+ }

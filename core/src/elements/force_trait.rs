@@ -202,6 +202,13 @@ pub trait Force: Element {
         OwnPowers { dissipated: S::zero(), applied: S::zero() }
     }
 
+    /// The joint with play that the force is.
+    #[inline]
+    fn joint<S>(e: &Self::Over<S>) -> Option<&Constraint<S>> {
+        let _ = e;
+        None
+    }
+
     /// The joint on whose reaction the force depends, as in friction.
     #[inline]
     fn reaction<S>(e: &Self::Over<S>) -> Option<JointId> {

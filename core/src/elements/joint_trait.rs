@@ -30,6 +30,15 @@ impl Equation {
     }
 }
 
+/// The play of an equation.
+#[derive(Clone, Copy, Debug)]
+pub struct Backlash<S> {
+    /// The distance of its limits, which are symmetric about 0, m.
+    pub whole: S,
+    /// Rate after a hit over the rate before it.
+    pub restitution: S,
+}
+
 /// Positions of the participants of a joint, and the time.
 #[derive(Clone, Copy, Debug)]
 pub struct At<'a, S> {
@@ -273,6 +282,13 @@ pub trait Joint: Element {
     /// position of the other bodies, as meshed wheels have.
     #[inline]
     fn modulus(e: &Self::Over<f64>) -> Option<f64> {
+        let _ = e;
+        None
+    }
+
+    /// The play of the teeth. With play, the element is a force between two limits of its only equation.
+    #[inline]
+    fn backlash<S: Clone>(e: &Self::Over<S>) -> Option<Backlash<S>> {
         let _ = e;
         None
     }

@@ -89,6 +89,7 @@ pub mod forces {
     mod friction;
     mod generalized_force;
     mod motor;
+    mod play;
     mod point_force;
     mod spring_damper;
     mod stop;
@@ -102,6 +103,7 @@ pub mod forces {
     pub use friction::Friction;
     pub use generalized_force::GeneralizedForce;
     pub use motor::Motor;
+    pub use play::Play;
     pub use point_force::PointForce;
     pub use spring_damper::SpringDamper;
     pub use stop::Stop;
@@ -135,7 +137,9 @@ use force_dispatch::forces;
 pub use force_trait::{Force, Held, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
 pub use group::Group;
-pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving, Required, ResultQuantity};
+pub use joint_trait::{
+    At, Backlash, Equation, Fixes, Joint, Linearized, Moving, Required, ResultQuantity,
+};
 use joints::*;
 pub use kinds::{
     acted, bearing, body, condition, coordinate, curve, equation_unit, flag, frame, joint, law,
@@ -194,6 +198,7 @@ forces! {
     Clutch,
     Stop,
     Contact,
+    Play,
     #[cfg(feature = "test-elements")] Lag,
     #[cfg(feature = "test-elements")] Rubbing,
     #[cfg(feature = "test-elements")] GapSpring,
@@ -207,6 +212,8 @@ pub fn catalogue() -> Vec<(Group, Table)> {
     // equations with which forces hold are not part of the format
     tables.retain(|(group, _)| *group != Group::Forces);
     tables.extend(force_tables());
+    // a joint with play is written as the joint
+    tables.retain(|(_, table)| !table.fields.is_empty());
     tables
 }
 

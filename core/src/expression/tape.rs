@@ -7,6 +7,8 @@ use super::{Symbol, MAX_OPERANDS};
 use crate::math::Real;
 use std::sync::Arc;
 
+mod simple;
+
 /// Largest number of operands of a short expression.
 const SHORT: usize = 8;
 
@@ -361,40 +363,5 @@ impl From<f64> for Tape {
     /// A tape that consists of one constant.
     fn from(x: f64) -> Self {
         Self { code: vec![Instruction::Constant(x)], operands: 1, ..Self::default() }
-    }
-}
-
-impl Tape {
-    /// A tape that consists of one symbol.
-    pub fn of(symbol: Symbol) -> Self {
-        let (code, symbols) = (vec![Instruction::Load(symbol)], vec![symbol]);
-        Self { code, operands: 1, symbols, ..Self::default() }
-    }
-
-    /// The sum of a symbol and a number.
-    pub fn shifted(symbol: Symbol, by: f64) -> Self {
-        let add = Instruction::Binary(super::operation::Binary::Add);
-        let code = vec![Instruction::Load(symbol), Instruction::Constant(by), add];
-        Self { code, operands: 2, symbols: vec![symbol], ..Self::default() }
-    }
-
-    /// The law position + rate (t - t0).
-    pub fn line(position: f64, rate: f64, t0: f64) -> Self {
-        let add = Instruction::Binary(super::operation::Binary::Add);
-        let mut line = Self::growing(Instruction::Constant(rate), t0);
-        line.code.extend([Instruction::Constant(position), add]);
-        line
-    }
-
-    /// The law symbol × (t - t0).
-    pub fn growing_by(symbol: Symbol, t0: f64) -> Self {
-        let law = Self::growing(Instruction::Load(symbol), t0);
-        Self { symbols: vec![Symbol::Time, symbol], ..law }
-    }
-
-    fn growing(rate: Instruction, t0: f64) -> Self {
-        let mut law = Self::shifted(Symbol::Time, -t0);
-        law.code.extend([rate, Instruction::Binary(super::operation::Binary::Multiply)]);
-        law
     }
 }

@@ -5,6 +5,7 @@ use super::doubt::Doubt;
 use super::functions::Functions;
 use super::items::{Body, ForceMode};
 use super::link::Linker;
+use super::play;
 use super::problem::Problem;
 use super::scope::{states, Quantities, Scope};
 use super::variable::Variable;
@@ -69,8 +70,13 @@ impl Blueprint {
         };
         let linked = (self.bodies.as_slice(), self.constraints.as_slice());
         let mut linker = Linker::new(group, entry, scope, linked, quantities, problems);
-        let known = if group == Group::Forces {
-            ForceElement::read(kind, &mut linker).map(|e| {
+        let force = match group {
+            Group::Forces => Some(ForceElement::read(kind, &mut linker)),
+            _ if play::is_written(entry) => Some(play::read(entry, kind, &mut linker)),
+            _ => None,
+        };
+        let known = if let Some(force) = force {
+            force.map(|e| {
                 let e = e.filter(|e| self.two_bodies(group, entry, &e.bodies(), problems));
                 let linked = e.map(|e| (entry.name.clone(), states(entry), e));
                 Arc::make_mut(&mut self.forces).extend(linked);

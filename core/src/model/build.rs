@@ -7,7 +7,7 @@ use super::parameters::{self, Evaluated};
 use super::problem::Problem;
 use super::quantity::Elements;
 use super::scope::Scope;
-use super::{bodies, checks, tables};
+use super::{bodies, checks, play, tables};
 use crate::elements::Group;
 use crate::expression::Tape;
 use std::sync::Arc;
@@ -19,6 +19,7 @@ pub fn build(
     definition: &Definition,
     overrides: &[(String, Value)],
 ) -> Result<Model, Vec<Problem>> {
+    let definition = &play::moved(definition);
     let mut problems = Vec::new();
     let tables = tables::read(definition, &mut problems);
     let Evaluated { values, inferred, formulas } =
@@ -51,6 +52,7 @@ pub fn build(
         (Group::Forces, &definition.forces),
     ] {
         for entry in entries {
+            let group = if play::is_written(entry) { Group::Joints } else { group };
             blueprint.link(group, entry, &scope, &quantities, &mut problems);
         }
     }

@@ -55,15 +55,16 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
         }
     }
     for item in &model.forces {
+        let section = if item.element.joint().is_some() { "joints" } else { "forces" };
         let element = match &item.law {
             None => item.element.clone(),
             Some(law) => law.map(&mut |tape| constant(tape, parameters)),
         };
         if item.law.is_none() {
-            element.map(&mut |x| check(&["forces", &item.name], *x, problems));
+            element.map(&mut |x| check(&[section, &item.name], *x, problems));
         }
         if let Some((field, message)) = element.fault() {
-            problems.push(Problem::at(&["forces", &item.name, field], message));
+            problems.push(Problem::at(&[section, &item.name, field], message));
         }
     }
 }

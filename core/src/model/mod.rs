@@ -21,6 +21,7 @@ mod modes;
 mod outline;
 mod parameters;
 mod places;
+mod play;
 mod problem;
 mod problems;
 mod quantity;

@@ -7,6 +7,7 @@ use super::blueprint::Blueprint;
 use super::definition::{Definition, Entry, Value};
 use super::items::Body;
 use super::link::Linker;
+use super::play;
 use super::quantity_owner::{place, FormulaModel, QuantityOwner};
 use super::scope::{Quantities, Scope};
 use crate::elements::{
@@ -53,6 +54,9 @@ impl<'a> Elements<'a> {
         let mut fields =
             Linker::of_numbers(group, entry, self.scope, self.bodies, self, &mut faults);
         let owner = match group {
+            Group::Joints if play::is_written(entry) => {
+                Constraint::read(group, kind, &mut fields)?.map(QuantityOwner::Play)
+            }
             Group::Forces => ForceElement::read(kind, &mut fields)?.map(QuantityOwner::Force),
             _ => Constraint::read(group, kind, &mut fields)?.map(QuantityOwner::Constraint),
         };
@@ -63,7 +67,9 @@ impl<'a> Elements<'a> {
     fn entry(&self, name: &str) -> Option<(Group, &'a Entry)> {
         let definition = self.definition;
         if let Some(k) = self.scope.force(name) {
-            return Some((Group::Forces, &definition.forces[k]));
+            let entry = &definition.forces[k];
+            let group = if play::is_written(entry) { Group::Joints } else { Group::Forces };
+            return Some((group, entry));
         }
         let (k, joints) = (self.scope.constraint(name)?, &definition.joints);
         match joints.get(k) {

@@ -15,6 +15,8 @@ pub(super) enum QuantityOwner<S> {
     Point(PointOn<S>),
     Constraint(Constraint<S>),
     Force(ForceElement<S>),
+    /// A joint with play.
+    Play(Constraint<S>),
 }
 
 /// Components of a point as quantities.
@@ -30,6 +32,7 @@ impl<S> QuantityOwner<S> {
             }
             Self::Constraint(element) => QuantityOwner::Constraint(element.map(f)),
             Self::Force(element) => QuantityOwner::Force(element.map(f)),
+            Self::Play(joint) => QuantityOwner::Play(joint.map(f)),
         }
     }
 
@@ -38,6 +41,7 @@ impl<S> QuantityOwner<S> {
             Self::Point(_) => &OF_POINT,
             Self::Constraint(element) => element.measured(),
             Self::Force(element) => element.measured(),
+            Self::Play(_) => &Measured::OF_PLAY,
         }
     }
 
@@ -54,6 +58,7 @@ impl<S> QuantityOwner<S> {
             Self::Point(on) => vec![BodyId::GROUND, on.body],
             Self::Constraint(element) => element.bodies(),
             Self::Force(element) => element.bodies(),
+            Self::Play(joint) => joint.bodies(),
         }
     }
 }
@@ -69,6 +74,12 @@ impl<S: Real> QuantityOwner<S> {
             }
             Self::Constraint(element) => element.measure(at, &mut values),
             Self::Force(element) => element.measure(at, &mut values),
+            Self::Play(joint) => {
+                let mut equation = [S::zero()];
+                joint.residual(at, &mut equation);
+                let half = joint.backlash().map_or(S::zero(), |own| S::constant(0.5) * own.whole);
+                values.copy_from_slice(&[half - equation[0].abs(), -equation[0]]);
+            }
         }
         values
     }
@@ -79,7 +90,7 @@ impl<S: Real> QuantityOwner<S> {
         match (self, body) {
             (Self::Point(on), 1) => at(on.s),
             (Self::Point(_), _) => at(Local::zero()),
-            (Self::Constraint(element), _) => element.attachment(body),
+            (Self::Constraint(element) | Self::Play(element), _) => element.attachment(body),
             (Self::Force(element), _) => {
                 at(element.points().map_or(Local::zero(), |points| points[body]))
             }

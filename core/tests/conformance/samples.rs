@@ -108,6 +108,8 @@ fn wheels() -> Vec<Constraint> {
             radius: -0.6,
             axis: 0.4,
             offset: 0.3,
+            backlash: None,
+            restitution: 0.0,
         }),
         Constraint::Rolling(Rolling {
             i: on(1, 0.5, 0.2),
@@ -127,6 +129,8 @@ fn wheels() -> Vec<Constraint> {
             internal,
             offset: 0.1,
             pressure_angle: 0.35,
+            backlash: None,
+            restitution: 0.0,
         }));
     }
     for (radii, crossed) in [([0.7, 0.3], false), ([0.7, 0.3], true), ([0.4, 0.4], false)] {

@@ -157,7 +157,9 @@ class Gear(Element):
     direction from centre i to centre j. σ is 1 for external and -1 for internal teeth. The
     joints of the mechanism hold the centres at the distance r_i + r_j, or |r_i - r_j| for
     internal teeth. λ is the tangential force of the teeth. Wheel j carries the torque -σ λ r_j
-    about its centre and a force of magnitude |λ| normal to the line of centres.
+    about its centre and a force of magnitude |λ| normal to the line of centres. With
+    `backlash`, Φ is between -backlash/2 and backlash/2, and there is a force only at these
+    limits.
 
     Attributes:
         i: Centre of wheel i, as `body.point`.
@@ -169,6 +171,9 @@ class Gear(Element):
         offset: Constant that is subtracted in Φ [m].
         pressure_angle: Pressure angle of the teeth: the force |λ| tan(pressure_angle) along the
             line of centres pushes them apart [rad].
+        backlash: Total play of the teeth along the pitch circle [m].
+        restitution: With `backlash`: rate after a hit of the flanks over the rate before it,
+            from 0 to 1.
     """
 
     i: str
@@ -179,6 +184,8 @@ class Gear(Element):
     internal: bool = False
     offset: Number = 0.0
     pressure_angle: Number = 0.0
+    backlash: Number | None = None
+    restitution: Number = 0.0
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "gear"
     value_kinds: ClassVar[Mapping[str, str]] = {
@@ -190,6 +197,8 @@ class Gear(Element):
         "internal": "flag",
         "offset": "number",
         "pressure_angle": "number",
+        "backlash": "number",
+        "restitution": "number",
     }
 
 
@@ -236,7 +245,8 @@ class Rack(Element):
     offset, where u is the direction of the line and d = point_j - point_i. The joints of the
     mechanism hold the centre at the distance radius to the left of the line. λ is the
     tangential force of the teeth. It acts at the pitch point: +λ along u on body i, and -λ on
-    body j.
+    body j. With `backlash`, Φ is between -backlash/2 and backlash/2, and there is a force only
+    at these limits.
 
     Attributes:
         i: Point of body i on the pitch line, as `body.point`.
@@ -245,6 +255,9 @@ class Rack(Element):
             right [m].
         axis: Angle of the line in the frame of body i [rad].
         offset: Constant that is subtracted in Φ [m].
+        backlash: Total play of the teeth along the pitch line [m].
+        restitution: With `backlash`: rate after a hit of the flanks over the rate before it,
+            from 0 to 1.
     """
 
     i: str
@@ -252,6 +265,8 @@ class Rack(Element):
     radius: Number
     axis: Number = 0.0
     offset: Number = 0.0
+    backlash: Number | None = None
+    restitution: Number = 0.0
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "rack"
     value_kinds: ClassVar[Mapping[str, str]] = {
@@ -260,6 +275,8 @@ class Rack(Element):
         "radius": "number",
         "axis": "number",
         "offset": "number",
+        "backlash": "number",
+        "restitution": "number",
     }
 
 
@@ -1001,6 +1018,8 @@ class ElementMethods:
         internal: bool = False,
         offset: Number = 0.0,
         pressure_angle: Number = 0.0,
+        backlash: Number | None = None,
+        restitution: Number = 0.0,
     ) -> Gear:
         """Add an element of type ``gear`` and return it.
 
@@ -1009,7 +1028,9 @@ class ElementMethods:
         direction from centre i to centre j. σ is 1 for external and -1 for internal teeth. The
         joints of the mechanism hold the centres at the distance r_i + r_j, or |r_i - r_j| for
         internal teeth. λ is the tangential force of the teeth. Wheel j carries the torque -σ λ r_j
-        about its centre and a force of magnitude |λ| normal to the line of centres.
+        about its centre and a force of magnitude |λ| normal to the line of centres. With
+        `backlash`, Φ is between -backlash/2 and backlash/2, and there is a force only at these
+        limits.
 
         Args:
             name: its name in the model.
@@ -1022,6 +1043,9 @@ class ElementMethods:
             offset: Constant that is subtracted in Φ [m].
             pressure_angle: Pressure angle of the teeth: the force |λ| tan(pressure_angle) along the
                 line of centres pushes them apart [rad].
+            backlash: Total play of the teeth along the pitch circle [m].
+            restitution: With `backlash`: rate after a hit of the flanks over the rate before it,
+                from 0 to 1.
         """
         return self._add(
             Gear(
@@ -1034,6 +1058,8 @@ class ElementMethods:
                 internal=internal,
                 offset=offset,
                 pressure_angle=pressure_angle,
+                backlash=backlash,
+                restitution=restitution,
             )
         )
 
@@ -1075,6 +1101,8 @@ class ElementMethods:
         radius: Number,
         axis: Number = 0.0,
         offset: Number = 0.0,
+        backlash: Number | None = None,
+        restitution: Number = 0.0,
     ) -> Rack:
         """Add an element of type ``rack`` and return it.
 
@@ -1082,7 +1110,8 @@ class ElementMethods:
         offset, where u is the direction of the line and d = point_j - point_i. The joints of the
         mechanism hold the centre at the distance radius to the left of the line. λ is the
         tangential force of the teeth. It acts at the pitch point: +λ along u on body i, and -λ on
-        body j.
+        body j. With `backlash`, Φ is between -backlash/2 and backlash/2, and there is a force only
+        at these limits.
 
         Args:
             name: its name in the model.
@@ -1092,8 +1121,22 @@ class ElementMethods:
                 right [m].
             axis: Angle of the line in the frame of body i [rad].
             offset: Constant that is subtracted in Φ [m].
+            backlash: Total play of the teeth along the pitch line [m].
+            restitution: With `backlash`: rate after a hit of the flanks over the rate before it,
+                from 0 to 1.
         """
-        return self._add(Rack(name, i=i, j=j, radius=radius, axis=axis, offset=offset))
+        return self._add(
+            Rack(
+                name,
+                i=i,
+                j=j,
+                radius=radius,
+                axis=axis,
+                offset=offset,
+                backlash=backlash,
+                restitution=restitution,
+            )
+        )
 
     def rolling(
         self,

@@ -12,12 +12,13 @@
 //! the teeth apart for both signs of λ: external wheels away from each other, a wheel inside a ring towards the
 //! centre of the ring. The centres are held, so that this force does no work and changes only the reactions of the
 //! pins.
+//!
+//! With backlash b, the flanks touch at Φ = ±b/2, and there is no force between. The element is then a force,
+//! `forces/play.rs`.
 
-use crate::elements::wheels::{
-    centres, nearest, radii, radius_fault, rolled, whole_turn, TANGENTIAL,
-};
+use crate::elements::wheels::{centres, meshed, radii, radius_fault, whole_turn, TANGENTIAL};
 use crate::elements::{
-    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required,
+    element, measure, At, Attachment, Backlash, BodyId, Equation, Fixes, Joint, Mark, Required,
     ResultQuantity, SceneSymbol,
 };
 use crate::math::{Listed, Real, Wrench};
@@ -29,7 +30,8 @@ element! {
     /// direction from centre i to centre j. σ is 1 for external and -1 for internal teeth. The
     /// joints of the mechanism hold the centres at the distance r_i + r_j, or |r_i - r_j| for
     /// internal teeth. λ is the tangential force of the teeth. Wheel j carries the torque -σ λ r_j
-    /// about its centre and a force of magnitude |λ| normal to the line of centres.
+    /// about its centre and a force of magnitude |λ| normal to the line of centres. With `backlash`,
+    /// Φ is between -backlash/2 and backlash/2, and there is a force only at these limits.
     Gear, "gear" {
         /// Centre of wheel i, as `body.point`.
         i: point,
@@ -47,6 +49,10 @@ element! {
         offset: number [m] = 0.0,
         /// Pressure angle of the teeth: the force |λ| tan(pressure_angle) along the line of centres pushes them apart.
         pressure_angle: number [rad] = 0.0,
+        /// Total play of the teeth along the pitch circle.
+        backlash: optional_number [m],
+        /// With `backlash`: rate after a hit of the flanks over the rate before it, from 0 to 1.
+        restitution: number = 0.0,
     }
 }
 
@@ -88,9 +94,8 @@ impl Joint for Gear {
     }
 
     fn residual<S: Real>(e: &Gear<S>, at: &At<'_, S>, phi: &mut [S]) {
-        let (sigma, sum) = sum(e);
-        let d = measure::apart(at, &e.i, &e.j);
-        phi[0] = nearest(rolled(d, radii_of(e), sigma, at) - e.offset, sum);
+        let ([r_i, r_j], sigma) = (radii_of(e), S::constant(sum(e).0));
+        phi[0] = meshed(measure::apart(at, &e.i, &e.j), [r_i, sigma * r_j], e.offset, at);
     }
 
     fn requires<S: Real>(e: &Gear<S>, at: &At<'_, S>) -> Vec<Required<S>> {
@@ -103,6 +108,11 @@ impl Joint for Gear {
 
     fn phase_mut<S>(e: &mut Gear<S>) -> Option<&mut S> {
         Some(&mut e.offset)
+    }
+
+    fn backlash<S: Clone>(e: &Gear<S>) -> Option<Backlash<S>> {
+        let restitution = e.restitution.clone();
+        e.backlash.clone().map(|whole| Backlash { whole, restitution })
     }
 
     fn pitch(e: &Gear) -> Option<f64> {
@@ -159,6 +169,13 @@ impl Joint for Gear {
         }
         if !(0.0..FRAC_PI_2).contains(&e.pressure_angle) {
             let message = format!("{} rad; must be at least 0 and less than π/2", e.pressure_angle);
+            return Some(("pressure_angle", message));
+        }
+        if e.backlash.unwrap_or(0.0) == 0.0 && e.restitution != 0.0 {
+            return Some(("restitution", "needs backlash; remove it".to_string()));
+        }
+        if e.backlash.is_some() && e.pressure_angle != 0.0 {
+            let message = "not together with backlash; remove one of them".to_string();
             return Some(("pressure_angle", message));
         }
         let field = if e.radii.is_some() { "radii" } else { "module" };

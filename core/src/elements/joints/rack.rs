@@ -3,12 +3,13 @@
 //!
 //! With u the direction of the line and d = Pⱼ - Pᵢ: Φ = uᵀ d + r (φⱼ - φᵢ) - offset = 0. r > 0: the wheel is on the
 //! left of u; r < 0: on its right. λ is the tangential force at the pitch line. The mechanism must hold the centre at
-//! the distance r from the line, so that the force acts at the pitch point.
+//! the distance r from the line, so that the force acts at the pitch point. With backlash, the element is a force,
+//! `forces/play.rs`.
 
 use crate::elements::wheels::{directions, radius_fault, TANGENTIAL};
 use crate::elements::{
-    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Measured, Required,
-    ResultQuantity, SceneSymbol, SymbolEnd,
+    element, measure, At, Attachment, Backlash, BodyId, Equation, Fixes, Joint, Mark, Measured,
+    Required, ResultQuantity, SceneSymbol, SymbolEnd,
 };
 use crate::math::Real;
 
@@ -17,7 +18,8 @@ element! {
     /// offset, where u is the direction of the line and d = point_j - point_i. The joints of the
     /// mechanism hold the centre at the distance radius to the left of the line. λ is the
     /// tangential force of the teeth. It acts at the pitch point: +λ along u on body i, and -λ on
-    /// body j.
+    /// body j. With `backlash`, Φ is between -backlash/2 and backlash/2, and there is a force only at
+    /// these limits.
     Rack, "rack" {
         /// Point of body i on the pitch line, as `body.point`.
         i: point,
@@ -29,6 +31,10 @@ element! {
         axis: number [rad] = 0.0,
         /// Constant that is subtracted in Φ.
         offset: number [m] = 0.0,
+        /// Total play of the teeth along the pitch line.
+        backlash: optional_number [m],
+        /// With `backlash`: rate after a hit of the flanks over the rate before it, from 0 to 1.
+        restitution: number = 0.0,
     }
 }
 
@@ -48,6 +54,11 @@ impl Joint for Rack {
         let (u, _) = directions(e.axis, at.i());
         let turned = at.j().angle - at.i().angle;
         phi[0] = u.dot(measure::apart(at, &e.i, &e.j)) + e.radius * turned - e.offset;
+    }
+
+    fn backlash<S: Clone>(e: &Rack<S>) -> Option<Backlash<S>> {
+        let restitution = e.restitution.clone();
+        e.backlash.clone().map(|whole| Backlash { whole, restitution })
     }
 
     fn requires<S: Real>(e: &Rack<S>, at: &At<'_, S>) -> Vec<Required<S>> {
@@ -87,6 +98,8 @@ impl Joint for Rack {
     }
 
     fn fault(e: &Rack) -> Option<(&'static str, String)> {
-        radius_fault("radius", e.radius, true)
+        let bare = e.backlash.unwrap_or(0.0) == 0.0 && e.restitution != 0.0;
+        let of_hits = bare.then(|| ("restitution", "needs backlash; remove it".to_string()));
+        radius_fault("radius", e.radius, true).or(of_hits)
     }
 }

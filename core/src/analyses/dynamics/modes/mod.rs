@@ -90,8 +90,12 @@ pub(super) fn check(model: &Model, place: &StateAt<'_>) -> Result<(), Box<Failur
             continue;
         }
         let message = format!("the state is beyond {name} at t = {t:.6} s: its gap is {gap:.3e}");
-        let hint =
-            "start where the gap is not negative, or give a stiffness in place of restitution";
+        let hint = match model.forces[*k].element.joint() {
+            Some(_) => "set the angles of the wheels, or choose an offset, so that the play is within its limits",
+            None => {
+                "start where the gap is not negative, or give a stiffness in place of restitution"
+            }
+        };
         return Err(Reason::Start { t, name, message, hint }.into());
     }
     for k in all {
