@@ -142,6 +142,10 @@ macro_rules! constraints {
             pub fn residual(&self, at: &At<'_, S>, phi: &mut [S]) {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::residual(e, at, phi),)+)+ }
             }
+            /// The opposite of the only equation of a joint with play.
+            pub fn play(&self, at: &At<'_, S>) -> S {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::play(e, at),)+)+ }
+            }
             /// The values of [`measured`](Self::measured).
             pub fn measure(&self, at: &At<'_, S>, out: &mut [S]) {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::measure(e, at, out),)+)+ }

@@ -293,6 +293,13 @@ pub trait Joint: Element {
         None
     }
 
+    /// The opposite of the only equation of a joint with play, without a jump.
+    fn play<S: Real>(e: &Self::Over<S>, at: &At<'_, S>) -> S {
+        let mut equation = [S::zero()];
+        Self::residual(e, at, &mut equation);
+        -equation[0]
+    }
+
     /// The constant of the last equation that the start may change, m: wheels may be mounted at any phase.
     #[inline]
     fn phase_mut<S>(e: &mut Self::Over<S>) -> Option<&mut S> {

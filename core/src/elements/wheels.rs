@@ -23,29 +23,35 @@ pub(super) fn centres<S: Real>(d: Vec2<S>, must: Option<S>) -> Vec<Required<S>> 
     vec![Required { what: "distance of the centres", is: d.norm(), must, remedy }]
 }
 
-/// r_i φ_i + r_j φ_j.
-pub(super) fn turned<S: Real>([r_i, r_j]: [S; 2], at: &At<'_, S>) -> S {
-    r_i * at.i().angle + r_j * at.j().angle
+/// r_i (φ_i - θ) + σ r_j (φ_j - θ) with θ the direction of `d`.
+pub(super) fn rolled<S: Real>(d: Vec2<S>, [r_i, r_j]: [S; 2], sigma: f64, at: &At<'_, S>) -> S {
+    let theta = d.y.atan2(d.x);
+    r_i * (at.i().angle - theta) + S::constant(sigma) * r_j * (at.j().angle - theta)
 }
 
-/// r_i (φ_i - θ) + r_j (φ_j - θ) - offset with θ the direction of `d`, modulo 2π (r_i + r_j), nearest 0. The radius
-/// r_j is negative if both wheels turn in the same sense. With α = (r_i φ_i + r_j φ_j - offset)/(r_i + r_j), it is
-/// (r_i + r_j) times the direction of `d` seen from α, mirrored, which has no jump where θ has one. Wheels that are
-/// exactly half a turn out of mesh are common at starts; [`CUT`] gives all of them the same sign.
-pub(super) fn meshed<S: Real>(d: Vec2<S>, radii: [S; 2], offset: S, at: &At<'_, S>) -> S {
-    let sum = radii[0] + radii[1];
-    let Local { x, y } = Rotation::new((turned(radii, at) - offset) / sum).inverse(d);
-    let (sin, cos) = CUT.sin_cos();
-    let turn = |a: S, b: S| S::constant(cos) * a + S::constant(sin) * b;
-    sum * (turn(-y, x).atan2(turn(x, y)) - S::constant(CUT))
+/// [`rolled`] - offset modulo 2π (r_i + σ r_j), nearest 0, in a form that has no jump where θ has one. With α = (r_i φ_i
+/// + σ r_j φ_j - offset)/(r_i + σ r_j), it is (r_i + σ r_j) times the angle from `d` to the direction α.
+pub(super) fn meshed<S: Real>(
+    d: Vec2<S>,
+    [r_i, r_j]: [S; 2],
+    sigma: f64,
+    (offset, at): (S, &At<'_, S>),
+) -> S {
+    let r_j = S::constant(sigma) * r_j;
+    let alpha = (r_i * at.i().angle + r_j * at.j().angle - offset) / (r_i + r_j);
+    let seen = Rotation::new(alpha).inverse(d);
+    (r_i + r_j) * (-seen.y).atan2(seen.x)
 }
-
-/// Half a turn out of mesh, by which the sign of a distance from the mesh changes, is this angle before π, rad.
-const CUT: f64 = 1e-6;
 
 /// The change of the equation by a whole turn of θ, 2π `radius`.
 pub(super) fn whole_turn<S: Real>(radius: S) -> S {
     S::constant(std::f64::consts::TAU) * radius
+}
+
+/// `x` modulo 2π `radius`, nearest 0, so that the result does not change with a whole turn of θ.
+pub(super) fn nearest<S: Real>(x: S, radius: S) -> S {
+    let turn = whole_turn(radius);
+    x - turn * (x / turn + S::constant(0.5)).floor()
 }
 
 /// The directions along a line at the angle `axis` in a body, and to its left.

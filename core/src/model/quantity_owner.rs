@@ -75,10 +75,9 @@ impl<S: Real> QuantityOwner<S> {
             Self::Constraint(element) => element.measure(at, &mut values),
             Self::Force(element) => element.measure(at, &mut values),
             Self::Play(joint) => {
-                let mut equation = [S::zero()];
-                joint.residual(at, &mut equation);
+                let play = joint.play(at);
                 let half = joint.backlash().map_or(S::zero(), |own| S::constant(0.5) * own.whole);
-                values.copy_from_slice(&[half - equation[0].abs(), -equation[0]]);
+                values.copy_from_slice(&[half - play.abs(), play]);
             }
         }
         values

@@ -6,7 +6,7 @@
 //! modulus is 0, θ cancels. λ is the difference of the forces of the two strands. The mechanism must hold the
 //! distance of the centres at any value > 0.
 
-use crate::elements::wheels::{centres, meshed, radius_fault, turned, whole_turn, TANGENTIAL};
+use crate::elements::wheels::{centres, nearest, radius_fault, rolled, whole_turn, TANGENTIAL};
 use crate::elements::{
     element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required,
     ResultQuantity, SceneSymbol,
@@ -51,10 +51,10 @@ impl Joint for Belt {
     fn residual<S: Real>(e: &Belt<S>, at: &At<'_, S>, phi: &mut [S]) {
         let ([r_i, r_j], d) = (e.radii, measure::apart(at, &e.i, &e.j));
         phi[0] = match e.crossed {
-            true => meshed(d, e.radii, e.offset, at),
+            true => nearest(rolled(d, e.radii, 1.0, at) - e.offset, r_i + r_j),
             false => {
-                let same = turned([r_i, -r_j], at) - e.offset;
-                S::select(differ(e.radii), meshed(d, [r_i, -r_j], e.offset, at), same)
+                let x = rolled(d, e.radii, -1.0, at) - e.offset;
+                S::select(differ(e.radii), nearest(x, r_i - r_j), x)
             }
         };
     }

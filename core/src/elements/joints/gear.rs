@@ -16,7 +16,9 @@
 //! With backlash b, the flanks touch at Φ = ±b/2, and there is no force between. The element is then a force,
 //! `forces/play.rs`.
 
-use crate::elements::wheels::{centres, meshed, radii, radius_fault, whole_turn, TANGENTIAL};
+use crate::elements::wheels::{
+    centres, meshed, nearest, radii, radius_fault, rolled, whole_turn, TANGENTIAL,
+};
 use crate::elements::{
     element, measure, At, Attachment, Backlash, BodyId, Equation, Fixes, Joint, Mark, Required,
     ResultQuantity, SceneSymbol,
@@ -94,8 +96,9 @@ impl Joint for Gear {
     }
 
     fn residual<S: Real>(e: &Gear<S>, at: &At<'_, S>, phi: &mut [S]) {
-        let ([r_i, r_j], sigma) = (radii_of(e), S::constant(sum(e).0));
-        phi[0] = meshed(measure::apart(at, &e.i, &e.j), [r_i, sigma * r_j], e.offset, at);
+        let (sigma, sum) = sum(e);
+        let d = measure::apart(at, &e.i, &e.j);
+        phi[0] = nearest(rolled(d, radii_of(e), sigma, at) - e.offset, sum);
     }
 
     fn requires<S: Real>(e: &Gear<S>, at: &At<'_, S>) -> Vec<Required<S>> {
@@ -113,6 +116,11 @@ impl Joint for Gear {
     fn backlash<S: Clone>(e: &Gear<S>) -> Option<Backlash<S>> {
         let restitution = e.restitution.clone();
         e.backlash.clone().map(|whole| Backlash { whole, restitution })
+    }
+
+    fn play<S: Real>(e: &Gear<S>, at: &At<'_, S>) -> S {
+        let d = measure::apart(at, &e.i, &e.j);
+        -meshed(d, radii_of(e), sum(e).0, (e.offset, at))
     }
 
     fn pitch(e: &Gear) -> Option<f64> {
