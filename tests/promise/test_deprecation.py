@@ -5,9 +5,9 @@ import warnings
 
 import kempe as kp
 import pytest
+from kempe._compact import call
 from kempe.base.arguments import ArgumentError, explained
 from kempe.base.deprecation import former, former_since, removal, renamed
-from promise.python_names import call
 
 
 @renamed("0.3", strength="stiffness", loss="damping")
