@@ -1,4 +1,6 @@
-"""Print what pyproject.toml requires, one package a line: `requirements.py run`, test, packages or release.
+"""Print what pyproject.toml requires, one package a line.
+
+`requirements.py run`, or test, packages or release, for another purpose.
 
 tools/lock.sh adds the versions and hashes.
 """
@@ -13,7 +15,7 @@ except ModuleNotFoundError:  # Python 3.10
 
 
 def requirements(purpose: str) -> list[str]:
-    """What must be installed to build and run kempe, to test it too, to build packages, or to check a release."""
+    """What must be installed to build and run kempe, or also for another purpose."""
     text = Path(__file__).parent.with_name("pyproject.toml").read_text(encoding="utf-8")
     table = tomllib.loads(text)
     extras = table["project"]["optional-dependencies"]

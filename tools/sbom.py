@@ -96,12 +96,12 @@ def npm_parts(text: str) -> Iterator[Part]:
         digest = base64.b64decode(one["integrity"].removeprefix("sha512-")).hex()
         yield part(
             "npm",
-            name.replace("@", "%40"),
+            name,
             one["version"],
             built_in=not one.get("dev", False),
             hashes=[{"alg": "SHA-512", "content": digest}],
             licenses=[{"expression": one["license"]}] if "license" in one else [],
-        ) | {"name": name}
+        )
 
 
 def unique(parts: Iterator[Part]) -> list[Part]:
