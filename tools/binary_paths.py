@@ -4,7 +4,7 @@
 
 Archives are opened: wheels, source distributions, compressed pages, and the core in a page. A path
 is wrong if it begins with a folder of this machine, or if it is the absolute path of a source file
-outside the folders that the compiler was told to write instead. Exit code: 1 if a path is found.
+outside the folders that the compiler writes instead. Exit code: 1 if a path is found.
 """
 
 import base64
