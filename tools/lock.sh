@@ -8,7 +8,7 @@ set -eu
 cd -- "$(dirname -- "$0")/.."
 PATH=$PWD/.venv/bin:$PATH
 mkdir -p tools/lock
-for purpose in run test packages; do
+for purpose in run test packages release; do
     python tools/requirements.py "$purpose" |
         uv pip compile - --quiet --universal --python-version 3.10 --generate-hashes --no-annotate \
             --no-header --no-emit-index-url --constraints constraints.txt --output-file "tools/lock/$purpose.txt"

@@ -1,4 +1,6 @@
-"""Print what pyproject.toml requires, one package a line: `requirements.py run`, test or packages.
+"""Print what pyproject.toml requires, one package a line.
+
+`requirements.py run`, or test, packages or release, for another purpose.
 
 tools/lock.sh adds the versions and hashes.
 """
@@ -13,12 +15,12 @@ except ModuleNotFoundError:  # Python 3.10
 
 
 def requirements(purpose: str) -> list[str]:
-    """What must be installed to build and run kempe, to test it too, or to build its packages."""
+    """What must be installed to build and run kempe, or also for another purpose."""
     text = Path(__file__).parent.with_name("pyproject.toml").read_text(encoding="utf-8")
     table = tomllib.loads(text)
     extras = table["project"]["optional-dependencies"]
-    if purpose == "packages":
-        return list(extras["packages"])
+    if purpose in ("packages", "release"):
+        return list(extras[purpose])
     names = table["build-system"]["requires"] + table["project"]["dependencies"]
     if purpose == "test":
         names += extras["test"] + extras["docs"]

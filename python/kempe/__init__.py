@@ -284,11 +284,20 @@ _HOME = {
     "write_report": "lab_report",
 }
 
+#: Former public name → its present name and the version since which it has this name.
+_FORMER: dict[str, tuple[str, str]] = {}
+
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604
 
 
 def __getattr__(name: str) -> Any:
     """Import a public name from its module on first use (PEP 562)."""
+    if name in _FORMER:
+        from kempe.base.deprecation import announce
+
+        present, since = _FORMER[name]
+        announce(f"kempe.{name}", f"kempe.{present}", since)
+        return __getattr__(present)
     if name not in _HOME:
         from kempe.base.arguments import missing_attribute
 

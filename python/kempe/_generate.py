@@ -2,19 +2,19 @@
 
 The catalogue is the one statement of the fields of elements, analyses and options. The typed
 dataclasses and the methods of ``Model`` in ``model/elements.py`` follow from it, and so do the
-classes in ``analyses/options.py``, the reference page and the list of elements. Adding one of them
-touches no Python by hand.
+classes in ``analyses/options.py``, the reference pages and the list of elements. Adding one of
+them touches no Python by hand.
 """
 
 from __future__ import annotations
 
 import json
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-from kempe import _core, _reference, templates
+from kempe import _compact, _core, _reference, templates
 from kempe.base import files
 
 WIDTH = 100
@@ -297,11 +297,13 @@ def camel(name: str) -> str:
 def main() -> None:
     """Write the classes, the pages in ``docs``, and the copies of the examples."""
     here = Path(__file__)
-    written = {
+    written: dict[Path, Callable[[str], str]] = {
         here.with_name("model") / "elements.py": source,
         here.with_name("analyses") / "options.py": options_source,
         _reference.TARGET: _reference.page,
         _reference.ELEMENTS: _reference.elements,
+        _compact.INDEX: _compact.index,
+        _compact.TARGET: _compact.page,
     }
     for target, text in written.items():
         files.write_text(target, text(_core.catalogue()))

@@ -9,7 +9,7 @@ from docs.comparison import agrees
 from docs.pages import PAGES, anchors, blocks, links
 from docs.reader import Reader
 from house.places import ROOT
-from kempe import _core, _reference
+from kempe import _compact, _core, _reference
 from sizes import only_full
 
 #: Languages of blocks. The tests do not run `sh` blocks, which contain installations and `./test`.
@@ -70,6 +70,8 @@ def test_the_reference_matches_the_catalogue() -> None:
     for target, text in (
         (_reference.TARGET, _reference.page),
         (_reference.ELEMENTS, _reference.elements),
+        (_compact.INDEX, _compact.index),
+        (_compact.TARGET, _compact.page),
     ):
         assert text(_core.catalogue()) == target.read_text("utf-8"), "run python -m kempe._generate"
 

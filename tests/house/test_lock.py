@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from house.places import ROOT
 
-LOCKS = ("run", "test", "packages")
+LOCKS = ("run", "test", "packages", "release")
 HASH = re.compile(r"--hash=sha256:[0-9a-f]{64}")
 
 

@@ -22,7 +22,7 @@ NO_CORE = {
 }
 
 #: Parts that only they themselves and the given module may import.
-PRIVATE = {"cli": {"cli", "__main__"}}
+PRIVATE = {"cli": {"cli", "__main__", "_compact"}}
 
 
 def parts_named(text: str, package: tuple[str, ...]) -> set[str]:

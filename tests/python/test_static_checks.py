@@ -88,3 +88,12 @@ def test_a_tree_is_that_of_the_saved_case(tmp_path: Path, gravity: str, suffix: 
     m.bar("a", mass=1, length=1, ends=("A", "B"), points={"C": (0, 1)})
     kp.Case(m).save(again)
     assert kp.load(again).tree() == kp.Case(m).tree()
+
+
+@pytest.mark.parametrize("pair", ['["50 deg", "90 deg"]', '[0.9, "90 deg"]', '["50 deg", "pi/2"]'])
+@pytest.mark.parametrize("kind", ["kinematics", "inverse_dynamics"])
+def test_check_accepts_a_range_with_units(tmp_path: Path, kind: str, pair: str) -> None:
+    text = f'{MODEL}[analyses.a]\ntype = "{kind}"\nover = "crank.angle"\nrange = {pair}\nn = 3\n'
+    path = tmp_path / "case.toml"
+    path.write_text(text, "utf-8")
+    assert main(["check", str(path)]) == 0

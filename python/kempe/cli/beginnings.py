@@ -81,7 +81,17 @@ def _begun(entry: Mapping[str, Any], t: float) -> dict[str, Any] | None:
 
 
 def _first(pair: Any) -> list[Any]:
-    first, last = pair
+    first, last = (_number(value) for value in pair)
     if isinstance(first, str) or isinstance(last, str):
         return [first, f"({first}) + {_SHARE}*(({last}) - ({first}))"]
     return [first, first + _SHARE * (last - first)]
+
+
+def _number(value: Any) -> Any:
+    """A text without names as a number: a formula may not contain ``"90 deg"``."""
+    from kempe.synthesis.tasks import value as number
+
+    try:
+        return number(value, "range", "")
+    except ModelError:
+        return value

@@ -1,0 +1,1 @@
+"""The draft of a paper, and the numbers in it."""
