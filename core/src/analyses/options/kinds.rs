@@ -223,10 +223,11 @@ macro_rules! kind {
 pub(in crate::analyses) use kind;
 
 kind! {
-    /// Two numbers of any unit.
+    /// Two values of what `over` names.
     interval: [f64; 2], Pair, |reader, key| match reader.get(key)? {
         Written::List(ends) if ends.len() == 2 => {
-            let [first, last] = each([&ends[0], &ends[1]], |end| reader.value(key, end));
+            let unit = reader.unit_of(reader.get("over"));
+            let [first, last] = each([&ends[0], &ends[1]], |end| reader.value(key, end, &unit));
             Some([first?, last?])
         }
         _ => reader.refuse(key, "must be two numbers, [first, last]"),
@@ -234,20 +235,25 @@ kind! {
 }
 
 kind! {
-    /// The first and the last value of ranges, of any unit.
+    /// The first and the last value of ranges, of what `over` names.
     intervals: Vec<[f64; 2]>, Ranges, |reader, key| {
         let given = match reader.get(key)? {
             Written::List(given) => given,
             _ => return reader.refuse(key, "must be ranges, [[first, last], [first, last]]"),
         };
-        let one = |range: &Written| match range {
+        let names = match reader.get("over") {
+            Some(Written::List(names)) => names.as_slice(),
+            _ => &[],
+        };
+        let one = |(k, range): (usize, &Written)| match range {
             Written::List(ends) if ends.len() == 2 => {
-                let [first, last] = [&ends[0], &ends[1]].map(|end| reader.value(key, end));
+                let unit = reader.unit_of(names.get(k));
+                let [first, last] = [&ends[0], &ends[1]].map(|end| reader.value(key, end, &unit));
                 Some([first?, last?])
             }
             _ => reader.refuse(key, "must be ranges, [[first, last], [first, last]]"),
         };
-        given.iter().map(one).collect()
+        given.iter().enumerate().map(one).collect()
     }
 }
 

@@ -1,5 +1,6 @@
 //! Options from a file or from Python. The tables have already checked their structure; here the values are computed.
 
+use crate::analyses::readings::find;
 use crate::equations::at;
 use crate::math::Listed;
 use crate::model::{Model, Problem, Reach, Scope, Value, ANY_UNIT};
@@ -77,16 +78,30 @@ impl<'a> Reader<'a> {
         Some(x)
     }
 
-    /// A finite number of any unit within the value of `key`.
-    pub fn value(&mut self, key: &str, value: &Value) -> Option<f64> {
+    /// A finite number of this unit within the value of `key`.
+    pub fn value(&mut self, key: &str, value: &Value, unit: &str) -> Option<f64> {
         let path = self.path_of(key);
         let reach = Reach::Parameters;
-        let tape = self.scope.formula(value, &path, ANY_UNIT, reach, self.problems)?;
+        let tape = self.scope.formula(value, &path, unit, reach, self.problems)?;
         let x = tape.evaluate(&at(&self.model.parameters, &[], &[], 0.0));
         match x.is_finite() {
             true => Some(x),
             false => self.refuse(key, format!("becomes {x}; must be finite")),
         }
+    }
+
+    /// The SI unit of a name: of the quantity of a driver, of a parameter or of another quantity. Any unit if it is not
+    /// known.
+    pub fn unit_of(&self, name: Option<&Value>) -> String {
+        let Some(Value::Text(name)) = name else { return ANY_UNIT.to_string() };
+        let (model, blueprint) = (self.model, &self.model.blueprint);
+        let named = model.constraints.iter().find(|item| item.name == *name);
+        let driven = named.and_then(|item| item.element.drives());
+        let parameter = blueprint.parameters.iter().position(|known| known == name);
+        let of_parameter = || blueprint.inferred[parameter?].unit();
+        let of_quantity = || find(model, name).ok().map(|found| found.unit);
+        let found = driven.map(|of| of.kind().unit().to_string());
+        found.or_else(of_parameter).or_else(of_quantity).unwrap_or(ANY_UNIT.to_string())
     }
 
     /// A list of names. `check` receives each name with the names before it.
