@@ -44,7 +44,8 @@ class Element:
 def elements() -> list[Element]:
     """The elements in the order of the list, without those of the tests."""
     listed = LIST.read_text(encoding="utf-8")
-    listed = re.sub(r"#\[cfg\(feature[^\n]*", "", listed)
+    # elements of the tests, and parts of other elements
+    listed = re.sub(r"#\[cfg\((?:feature|all)[^\n]*", "", listed)
     # equations of forces in a phase of a run, which no file can write
     listed = re.sub(r"\bForces \{[^}]*\}", "", listed)
     calls = re.findall(r"(?ms)^(?:constraints|forces)! \{(.*?)^\}", listed)

@@ -100,6 +100,13 @@ macro_rules! forces {
             }
         }
 
+        impl ForceElement<Tape> {
+            /// A second element of the force, see [`Force::companion`].
+            pub fn companion(&self) -> Option<ForceElement<Tape>> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::companion(e),)+ }
+            }
+        }
+
         impl ForceElement {
             /// The distances whose zeros begin and end a contact.
             pub fn clearances(&self) -> Vec<Clearance<'_>> {

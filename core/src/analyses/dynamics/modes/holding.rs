@@ -5,6 +5,7 @@
 //! friction exceeds its limit, the force with the largest excess is released.
 
 use super::super::failure::Failure;
+use super::companions;
 use super::dependence::{holders_of_friction, independent};
 use super::impacts::{self, restitution};
 use super::place::{drivers_rest, largest, mode_of, unit, with_modes, StateAt, STILL};
@@ -49,6 +50,10 @@ pub(super) fn decide(
     let holders = holders_of_friction(model, place, &all);
     let (mut modes, mut candidates) = (Vec::new(), Vec::new());
     for ((k, threshold), holders) in all.iter().zip(&thresholds).zip(&holders) {
+        if !companions::may_rub(model, place, *k, (before, &rest, fired)) {
+            modes.push(ForceMode::new(*k, Mode::Free));
+            continue;
+        }
         let (free, candidate) = match model.forces[*k].element.behaviour() {
             Some(Behaviour::Sticks) => {
                 let rests = drivers_rest(model, *holders, place.t, place.state(model)[0]);
@@ -223,13 +228,15 @@ fn with_held(
     left: &[(usize, f64)],
 ) -> Vec<ForceMode> {
     let mut modes = free.to_vec();
-    for own in independent(model, place, free, left) {
+    let left = left.iter().copied().filter(|(k, _)| companions::may_hold(model, *k, left)).list();
+    for own in independent(model, place, free, &left) {
         // at the start of a run, no force has a mode yet
         match modes.iter_mut().find(|of| of.force == own.force) {
             Some(of) => *of = own,
             None => modes.push(own),
         }
     }
+    companions::release(model, &mut modes);
     modes
 }
 
@@ -245,6 +252,7 @@ fn moves_apart(
     let fastest = largest(workspace.a());
     let gaps = place.gap_jets(model, candidates, workspace.a());
     let fits = |(k, jet): (&usize, Jet)| match mode_of(modes, *k) {
+        Mode::Free if model.forces[*k].is_companion => true,
         Mode::Free => jet.second >= -STILL * fastest,
         Mode::Slides(sign) => sign * jet.rate >= -STILL * fastest,
         _ => true,

@@ -28,6 +28,7 @@ use super::super::failure::Failure;
 use super::super::model_cache::ModelCache;
 use super::super::passages::Struck;
 use super::super::redundant_rows::workspace_at;
+use super::companions;
 use super::place::{mode_of, with_modes, StateAt};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::kinematics::Motions;
@@ -110,6 +111,12 @@ pub(super) fn resolve(
         let approaching = approaching(model, touching, &rates);
         if approaching.is_empty() {
             break;
+        }
+        if let Some(k) = companions::rubbing(model, touching) {
+            let (t, name) = (place.t, model.forces[k].name.clone());
+            let message = format!("{name} has friction and takes part in an impact at t = {t:.6} s");
+            let hint = "give the contact a stiffness in place of restitution, or remove its friction";
+            return Err(super::super::failure::Reason::Start { t, name, message, hint }.into());
         }
         if found.impulses.is_empty() {
             found.impulses = vec![0.0; model.n_multipliers()];

@@ -6,10 +6,12 @@
 //! | `mode_events` | the functions whose zeros may change a mode |
 //! | `place` | a state at which modes are determined |
 //! | `impacts` | jumps of velocities where contacts hit |
+//! | `companions` | friction of contacts that press |
 //! | `dependence` | which forces can hold together, and the modes of the others |
 //! | `holding` | contacts that rest and friction that sticks |
 
 mod at_rest;
+mod companions;
 mod dependence;
 mod holding;
 mod impacts;
@@ -26,7 +28,7 @@ use place::{largest, with_modes};
 
 use super::failure::{Failure, Reason};
 use super::passages::Struck;
-use crate::elements::Behaviour;
+use crate::elements::{Behaviour, Mode};
 use crate::model::{ForceMode, Model};
 use dependence::holders;
 use impacts::Hits;
@@ -69,6 +71,8 @@ pub(super) fn settle(
     for (old, new) in before.iter().zip(&modes) {
         let sticks = matches!(model.forces[old.force].element.behaviour(), Some(Behaviour::Sticks));
         match (old.mode.holds(), new.mode.holds(), sticks) {
+            // its contact separates
+            (true, false, true) if new.mode == Mode::Free => {}
             (false, true, true) => changed.push((old.force, 0)),
             (true, false, _) if !hits.contains(&old.force) => changed.push((old.force, 1)),
             _ => {}
