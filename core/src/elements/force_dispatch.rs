@@ -108,6 +108,10 @@ macro_rules! forces {
         }
 
         impl ForceElement {
+            /// The coefficient of friction of a contact in impacts.
+            pub fn impulse_friction(&self) -> f64 {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::impulse_friction(e),)+ }
+            }
             /// The distances whose zeros begin and end a contact.
             pub fn clearances(&self) -> Vec<Clearance<'_>> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::clearances(e),)+ }

@@ -293,6 +293,13 @@ pub trait Force: Element {
         (S::zero(), Wrench::zero())
     }
 
+    /// The coefficient of friction of a contact in impacts.
+    #[inline]
+    fn impulse_friction(e: &Self::Over<f64>) -> f64 {
+        let _ = e;
+        0.0
+    }
+
     /// Whether friction acts in one direction only, as a freewheel does: its effort on body j is not negative.
     #[inline]
     fn only_pushes<S>(e: &Self::Over<S>) -> bool {

@@ -233,6 +233,11 @@ impl<'a> MotionSlopes<'a> {
                     "{name} comes to rest at t = {t:.6} s after impacts without end, which derivatives do not follow"
                 ));
             }
+            if passage.couples {
+                return Err(format!(
+                    "an impact with friction, or of several contacts together, at t = {t:.6} s"
+                ));
+            }
             if passage.replaced {
                 return Err(format!("an action replaces the state at t = {t:.6} s"));
             }

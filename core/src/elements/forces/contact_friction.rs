@@ -171,6 +171,10 @@ impl Force for ContactFriction {
         e.times(e.r#static, at, &e.touch().at_pitch(at))
     }
 
+    fn impulse_friction(e: &ContactFriction) -> f64 {
+        e.kinetic
+    }
+
     fn holding(e: &ContactFriction<Tape>, _: f64, value: f64) -> Option<Constraint<Tape>> {
         let (i, curve, radius) = (e.i.clone(), e.curve.clone(), e.radius.clone());
         let value = Tape::from(value);

@@ -1,6 +1,5 @@
 //! The friction of contacts, which acts only while the contact presses.
 
-use super::impacts::restitution;
 use super::place::{is_contact, mode_of, StateAt};
 use crate::elements::Mode;
 use crate::model::{ForceMode, Model};
@@ -53,8 +52,7 @@ pub(super) fn contact_of(model: &Model, force: usize) -> Option<usize> {
     item.partner.filter(|_| item.is_companion)
 }
 
-/// A contact with friction that sticks among these, whose impacts are not computed.
-pub(super) fn rubbing(model: &Model, contacts: &[usize]) -> Option<usize> {
-    let rubs = |k: &usize| model.forces[*k].partner.is_some() && restitution(model, *k).0 >= 0.0;
-    contacts.iter().copied().find(rubs)
+/// Whether one of these contacts has friction that sticks.
+pub(super) fn rub(model: &Model, contacts: &[usize]) -> bool {
+    contacts.iter().any(|k| model.forces[*k].partner.is_some())
 }

@@ -23,12 +23,15 @@
 //!
 //! which has one solution v⁺: the nearest to v⁻ in the norm of M (Moreau, *Liaisons unilatérales sans frottement et chocs
 //! inélastiques*, C. R. Acad. Sci. Paris 296 (1983) 1473). Without restitution, it is the law of the impact itself.
+//!
+//! `friction_impact.rs` contains the impacts of contacts with friction, and of all closed contacts together.
 
 use super::super::failure::Failure;
 use super::super::model_cache::ModelCache;
 use super::super::passages::Struck;
 use super::super::redundant_rows::workspace_at;
-use super::companions;
+use super::super::options::{ImpactOrder, RestitutionLaw};
+use super::{companions, friction_impact};
 use super::place::{mode_of, with_modes, StateAt};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::kinematics::Motions;
@@ -44,7 +47,7 @@ const MANY: usize = 20;
 const STEADY: f64 = 1e-9;
 
 /// The restitution of each contact.
-type Restitutions<'r> = &'r dyn Fn(usize) -> f64;
+pub(super) type Restitutions<'r> = &'r dyn Fn(usize) -> f64;
 
 /// Contacts that hit, and their impulses.
 #[derive(Clone, Debug, Default)]
@@ -53,21 +56,23 @@ pub(super) struct Hits {
     pub impulses: Vec<f64>,
     /// The contacts of each impact, in order.
     pub impacts: Vec<Vec<Struck>>,
+    /// Whether contacts with friction, or all closed contacts, acted together.
+    pub couples: bool,
     /// Contacts at which a sequence of impacts without end has been replaced by its limit.
     pub ended: Vec<usize>,
 }
 
 /// An impact at some contacts.
-struct Impact {
-    contacts: Vec<usize>,
+pub(super) struct Impact {
+    pub contacts: Vec<usize>,
     /// The model with these contacts held, and the impulses of its rows.
-    closed: Model,
-    found: Vec<f64>,
+    pub closed: Model,
+    pub found: Vec<f64>,
     /// The velocities after the impact, and the energy that it takes.
-    after: Vec<f64>,
-    loss: f64,
+    pub after: Vec<f64>,
+    pub loss: f64,
     /// The contact whose restitution all have; None if each has its own.
-    common: Option<usize>,
+    pub common: Option<usize>,
 }
 
 /// The approaches of a contact at one time: their number, and the rates of all gaps at the last of them.
@@ -102,6 +107,7 @@ pub(super) fn resolve(
     model: &Model,
     place: &mut StateAt<'_>,
     touching: &[usize],
+    (order, law): (ImpactOrder, RestitutionLaw),
 ) -> Result<Hits, Box<Failure>> {
     let mut found = Hits::default();
     let mut seen = vec![Approaches::default(); touching.len()];
@@ -112,23 +118,23 @@ pub(super) fn resolve(
         if approaching.is_empty() {
             break;
         }
-        if let Some(k) = companions::rubbing(model, touching) {
-            let (t, name) = (place.t, model.forces[k].name.clone());
-            let message = format!("{name} has friction and takes part in an impact at t = {t:.6} s");
-            let hint = "give the contact a stiffness in place of restitution, or remove its friction";
-            return Err(super::super::failure::Reason::Start { t, name, message, hint }.into());
-        }
         if found.impulses.is_empty() {
             found.impulses = vec![0.0; model.n_multipliers()];
         }
         let endless = is_endless(&mut seen, &approaching, &rates) || round == ROUNDS;
-        let impact = match plastic || endless {
+        let own = |k: usize| if endless { 0.0 } else { restitution(model, k).0 };
+        let all = plastic || endless || order == ImpactOrder::Simultaneous;
+        let approach: Vec<(usize, f64)> =
+            approaching.iter().map(|at| (touching[*at], rates[*at])).list();
+        let hit_ones: Vec<usize> = approach.iter().map(|(k, _)| *k).list();
+        let acting = if all { touching } else { &hit_ones };
+        let couples = order == ImpactOrder::Simultaneous || companions::rub(model, acting);
+        let impact = match all {
+            _ if couples => friction_impact::strike(model, place, acting, (&own, law))?,
             true => together(model, place, touching)?,
-            false => {
-                let approach = approaching.iter().map(|at| (touching[*at], rates[*at])).list();
-                hit(model, place, &approach, &|k| restitution(model, k).0)?
-            }
+            false => hit(model, place, &approach, &own)?,
         };
+        found.couples |= couples;
         impact.apply(model, place, &mut found.impulses);
         found.impacts.push(impact.struck(plastic || endless));
         found.hits.extend(&impact.contacts);
@@ -301,8 +307,11 @@ impl Impact {
         for (sum, own) in impulses.iter_mut().zip(&self.found[..base]) {
             *sum += own;
         }
-        for k in &self.contacts {
-            let rows = (model.forces[*k].held_row, self.closed.forces[*k].held_row);
+        let rubs = self.contacts.iter().filter_map(|k| model.forces[*k].partner);
+        for k in self.contacts.iter().copied().chain(rubs) {
+            let closed = &self.closed.forces[k];
+            let holds = matches!(closed.mode, Mode::Holds(_));
+            let rows = (model.forces[k].held_row, closed.held_row.filter(|_| holds));
             if let (Some(to), Some(from)) = rows {
                 impulses[to] += self.found[from];
             }

@@ -8,11 +8,13 @@
 //! | `impacts` | jumps of velocities where contacts hit |
 //! | `companions` | friction of contacts that press |
 //! | `dependence` | which forces can hold together, and the modes of the others |
+//! | `friction_impact` | impacts of contacts with friction, and of all closed contacts together |
 //! | `holding` | contacts that rest and friction that sticks |
 
 mod at_rest;
 mod companions;
 mod dependence;
+mod friction_impact;
 mod holding;
 mod impacts;
 mod mode_events;
@@ -27,6 +29,7 @@ use crate::math::Listed;
 use place::{largest, with_modes};
 
 use super::failure::{Failure, Reason};
+use super::options::{ImpactOrder, RestitutionLaw};
 use super::passages::Struck;
 use crate::elements::{Behaviour, Mode};
 use crate::model::{ForceMode, Model};
@@ -44,6 +47,8 @@ pub(super) struct Settled {
     pub impulses: Vec<f64>,
     /// The impacts in order.
     pub impacts: Vec<Vec<Struck>>,
+    /// Whether contacts with friction, or all closed contacts, acted together.
+    pub couples: bool,
     /// Whether a sequence of impacts without end has been replaced by its limit.
     pub collapsed: bool,
     /// Other changes: the force, and the place of its event.
@@ -60,10 +65,12 @@ pub(super) fn settle(
     place: &mut StateAt<'_>,
     before: &[ForceMode],
     fired: &[usize],
+    law: (ImpactOrder, RestitutionLaw),
 ) -> Result<Settled, Box<Failure>> {
     let touching = impacts::touching(model, place, before);
     let fastest = largest(place.state(model)[1]);
-    let Hits { hits, impulses, impacts, ended } = impacts::resolve(model, place, &touching)?;
+    let Hits { hits, impulses, impacts, couples, ended } =
+        impacts::resolve(model, place, &touching, law)?;
     let jumped = (!hits.is_empty()).then_some(fastest);
     let modes = holding::decide(model, place, before, (&touching, fired, jumped))?;
     let collapsed = !ended.is_empty();
@@ -78,7 +85,7 @@ pub(super) fn settle(
             _ => {}
         }
     }
-    Ok(Settled { modes, hits, impulses, impacts, collapsed, changed })
+    Ok(Settled { modes, hits, impulses, impacts, couples, collapsed, changed })
 }
 
 /// Refuses a start beyond a stop or contact with restitution, and a stop whose coordinate is held by drivers.
