@@ -218,7 +218,9 @@ impl PyStates {
             self.multipliers(py)?;
             self.each(py, 3, |_, motions, acting, out| {
                 let mode = Mode::Holds(forces::side(model, k, motions, acting));
-                let resting = model.marked(&[ForceMode::new(k, mode)]);
+                let holds = |k| ForceMode::new(k, mode);
+                let modes: Vec<ForceMode> = model.with_companion(k).map(holds).collect();
+                let resting = model.marked(&modes);
                 let mut sum = Wrench::zero();
                 each_action(&resting, k, motions, acting, |_, at, wrench| {
                     if at == body {

@@ -241,7 +241,7 @@ fn force_on_j<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> Wrench
 
 fn power<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> S {
     let mut sum = S::zero();
-    for k in forces::with_companion(model, k) {
+    for k in model.with_companion(k) {
         forces::each_wrench(model, k, seen.motions, seen.acting(), |_, body, wrench| {
             sum += wrench.power(seen.motions[body.0].twist);
         });

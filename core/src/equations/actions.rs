@@ -1,6 +1,6 @@
 //! The actions of force elements as they are reported: with torques about the places at which the forces act.
 
-use super::forces::{at_state, each_wrench, reported, with_companion, Acting};
+use super::forces::{at_state, each_wrench, reported, Acting};
 use super::kinematics::Motions;
 use crate::elements::BodyId;
 use crate::math::{Listed, Real, Vec2, Wrench};
@@ -17,7 +17,7 @@ pub fn each_action<S: Real>(
     mut visit: impl FnMut(usize, BodyId, Wrench<S>),
 ) {
     let arms = arms(model, k, motions, acting);
-    for own in with_companion(model, k) {
+    for own in model.with_companion(k) {
         // the friction of a contact is the last part of the contact
         let parts = |k: usize| model.forces[k].element.parts().len();
         let first = parts(k) - parts(own);

@@ -247,12 +247,6 @@ pub fn reserve<S: Real>(
     element.reserve(&reported(model, k, motions, acting))
 }
 
-/// Force `k`, and the friction of a contact.
-pub fn with_companion<S>(model: &Model<S>, k: usize) -> impl Iterator<Item = usize> {
-    let item = &model.forces[k];
-    std::iter::once(k).chain(item.partner.filter(|_| !item.is_companion))
-}
-
 /// The results of force `k` in addition to its wrenches, in `out`. The friction of a contact gives the last of them.
 #[inline]
 pub fn results<S: Real>(
@@ -262,7 +256,7 @@ pub fn results<S: Real>(
     acting: Acting<'_, S>,
     out: &mut [S],
 ) {
-    for k in with_companion(model, k) {
+    for k in model.with_companion(k) {
         let element = at_state(model, &model.forces[k], motions, acting);
         let first = out.len() - element.result_quantities().len();
         element.results(&reported(model, k, motions, acting), &mut out[first..]);
@@ -282,14 +276,11 @@ fn reaction<S: Real>(
     let item = &model.forces[k];
     match (item.reaction, item.load_row, lam) {
         (Some(joint), _, Some(lam)) => seen(model, joint.0, motions, lam, t),
-        (None, Some(row), Some(lam)) => lam.get(row).map_or(Wrench::zero(), |lam| of_row(*lam)),
+        (None, Some(row), Some(lam)) => {
+            lam.get(row).map_or(Wrench::zero(), |lam| reactions::of_row(*lam))
+        }
         _ => Wrench::zero(),
     }
-}
-
-/// The reaction that stands for the multiplier of one row.
-pub(super) fn of_row<S: Real>(lam: S) -> Wrench<S> {
-    Wrench { force: Vec2::new(lam, S::zero()), torque: S::zero() }
 }
 
 /// The reaction of a joint on its body j at its joint point, in the global frame.
@@ -398,7 +389,7 @@ pub fn dissipated<S: Real>(
     acting: Acting<'_, S>,
 ) -> S {
     let mut powers = Powers::zero();
-    for k in with_companion(model, k) {
+    for k in model.with_companion(k) {
         let element = at_state(model, &model.forces[k], motions, acting);
         let at = reported(model, k, motions, acting);
         element.action(&at, &mut |part: usize, body: usize, w: Wrench<S>| {

@@ -69,13 +69,9 @@ pub fn rows<S: Real>(model: &Model<S>) -> Vec<usize> {
 /// multiplier and on the limit of the other force.
 pub fn rows_of<S>(model: &Model<S>, k: usize) -> Vec<usize> {
     let item = &model.forces[k];
-    let seen = |k: usize| {
-        let of_joint = model.forces[k].reaction.map(|joint| &model.layout.constraints[joint.0].rows);
-        of_joint.cloned().into_iter().flatten().chain(model.forces[k].load_row)
-    };
-    let mut all: Vec<usize> = seen(k).list();
+    let mut all: Vec<usize> = reactions::rows_seen(model, k).list();
     if let Mode::Follows { leader, .. } = item.mode {
-        seen(leader).append_to(&mut all);
+        reactions::rows_seen(model, leader).append_to(&mut all);
         all.extend(model.forces[leader].held_row);
     }
     all.sort_unstable();
@@ -103,7 +99,6 @@ type Sloped<S> = (S, Wrench<S>);
 impl<'m, S: Real> LoadedBearing<'m, S> {
     fn new(model: &'m Model<S>, k: usize, motions: &'m Motions<S>, acting: Acting<'m, S>) -> Self {
         let item = &model.forces[k];
-        let joint = item.reaction.map(|joint| joint.0);
         let element = forces::at_state(model, item, motions, acting);
         let at = forces::situation(model, k, motions, acting);
         Self {
@@ -112,14 +107,8 @@ impl<'m, S: Real> LoadedBearing<'m, S> {
             base: element.effort(&at).0,
             element,
             at,
-            first: match joint {
-                Some(joint) => model.layout.constraints[joint].rows.start,
-                None => item.load_row.unwrap_or(0),
-            },
-            units: match joint {
-                Some(joint) => reactions::units(model, joint, motions, acting.t),
-                None => item.load_row.map(|_| forces::of_row(S::one())).into_iter().collect(),
-            },
+            first: reactions::rows_seen(model, k).start,
+            units: reactions::units_seen(model, k, motions, acting.t),
         }
     }
 

@@ -159,7 +159,12 @@ impl Blueprint {
     /// The mechanism with only some of its constraints, and without forces.
     pub fn keeping(&self, kept: &[usize]) -> Self {
         let constraints = kept.iter().map(|k| self.constraints[*k].clone()).list();
-        Self { constraints: constraints.into(), forces: Arc::default(), companions: Arc::default(), ..self.clone() }
+        Self {
+            constraints: constraints.into(),
+            forces: Arc::default(),
+            companions: Arc::default(),
+            ..self.clone()
+        }
     }
 
     /// A body by name.

@@ -229,6 +229,11 @@ impl<S> Model<S> {
     pub fn listed_forces(&self) -> &[ForceItem<S>] {
         &self.forces[..self.forces.len() - self.blueprint.companions.len()]
     }
+    /// Force `k`, and its companion.
+    pub fn with_companion(&self, k: usize) -> impl Iterator<Item = usize> {
+        let item = &self.forces[k];
+        std::iter::once(k).chain(item.partner.filter(|_| !item.is_companion))
+    }
     /// A force by name.
     pub fn force(&self, name: &str) -> Option<usize> {
         self.forces.iter().position(|f| f.name == name)

@@ -112,8 +112,7 @@ mod tests {
             let product = |i: usize, k: usize| {
                 (0..n).map(|m| of[i][m] * of[k][m]).sum::<f64>() + if i == k { 0.1 } else { 0.0 }
             };
-            let a: Vec<Vec<f64>> =
-                (0..n).map(|i| (0..n).map(|k| product(i, k)).list()).list();
+            let a: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|k| product(i, k)).list()).list();
             let b: Vec<f64> = (0..n).map(|_| next()).list();
             let z = solve(&a, &b).expect("there is a solution");
             for (row, b) in a.iter().zip(&b) {

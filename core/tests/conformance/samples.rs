@@ -75,6 +75,7 @@ pub fn constraints() -> Vec<Constraint> {
         wheels(),
         on_curves(),
         crate::touching::resting(),
+        crate::touching::sticking(),
         by_formulas(),
         of_tests(),
         drivers(),

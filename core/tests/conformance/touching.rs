@@ -1,7 +1,7 @@
 //! Samples of stops and contacts.
 
 use crate::samples::{curve, on};
-use kempe::elements::forces::{Contact, Resting, Stop};
+use kempe::elements::forces::{Contact, ContactFriction, ContactSticking, Resting, Stop};
 use kempe::elements::{BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Rim, Side};
 
 pub fn stops() -> Vec<ForceElement> {
@@ -38,9 +38,32 @@ pub fn contacts() -> Vec<ForceElement> {
                 exponent: 1.5,
                 damping: 0.3,
                 friction: 0.2,
+                r#static: None,
                 velocity: Some(0.5),
                 restitution: None,
                 rest_speed: 1e-9,
+            }));
+        }
+    }
+    all.extend(rubbing_contacts());
+    all
+}
+
+/// The friction of contacts that slides and sticks.
+fn rubbing_contacts() -> Vec<ForceElement> {
+    let mut all = Vec::new();
+    for form in ["circle", "line"] {
+        for side in [Side::Right, Side::Left] {
+            all.push(ForceElement::ContactFriction(ContactFriction {
+                i: on(1, 0.2, -0.4),
+                curve: Rim::new(curve(form)),
+                radius: 0.3,
+                side,
+                stiffness: Some(1.0),
+                exponent: 1.5,
+                damping: 0.3,
+                kinetic: 0.2,
+                r#static: 0.3,
             }));
         }
     }
@@ -54,4 +77,16 @@ pub fn resting() -> Vec<Constraint> {
         Constraint::Resting(Resting { i: on(1, 0.2, -0.4), curve, radius: 0.3, side })
     };
     vec![of("circle", Side::Left), of("line", Side::Right), of("points", Side::Right)]
+}
+
+/// Equations by which contacts stick.
+pub fn sticking() -> Vec<Constraint> {
+    let of = |form: &str, side: Side| {
+        let (curve, radius, value) = (Rim::new(curve(form)), 0.3, 0.1);
+        let equation = ContactSticking { i: on(1, 0.2, -0.4), curve, radius, side, value };
+        Constraint::ContactSticking(equation)
+    };
+    let sides = [Side::Left, Side::Right];
+    let all = ["circle", "line"].into_iter().flat_map(|form| sides.map(|side| (form, side)));
+    all.map(|(form, side)| of(form, side)).collect()
 }

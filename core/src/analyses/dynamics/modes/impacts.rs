@@ -28,11 +28,11 @@
 
 use super::super::failure::Failure;
 use super::super::model_cache::ModelCache;
+use super::super::options::{ImpactOrder, RestitutionLaw};
 use super::super::passages::Struck;
 use super::super::redundant_rows::workspace_at;
-use super::super::options::{ImpactOrder, RestitutionLaw};
+use super::place::{mode_of, with_modes, StateAt, STILL};
 use super::{companions, friction_impact};
-use super::place::{mode_of, with_modes, StateAt};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, energy};
@@ -218,7 +218,7 @@ fn together(
     Ok(impact)
 }
 
-/// Removes the small gap rates of contacts that come to rest.
+/// Removes the small gap rates of contacts that come to rest. Contacts that stick there continue to do so.
 pub(super) fn halt(
     model: &Model,
     place: &mut StateAt<'_>,
@@ -226,9 +226,15 @@ pub(super) fn halt(
 ) -> Result<(), Box<Failure>> {
     let rates = place.gap_rates(model, contacts);
     let moving = contacts.iter().copied().zip(rates).filter(|(_, rate)| *rate != 0.0);
-    let moving: Vec<(usize, f64)> = moving.list();
+    let mut moving: Vec<(usize, f64)> = moving.list();
     if moving.is_empty() {
         return Ok(());
+    }
+    let rubs: Vec<usize> = contacts.iter().filter_map(|k| model.forces[*k].partner).list();
+    if !rubs.is_empty() {
+        let still = STILL * place.speed_scale(model, &[]);
+        let slow = rubs.iter().copied().zip(place.thresholds(model, &rubs));
+        moving.extend(slow.filter(|(_, speed)| speed.abs() <= still));
     }
     let impact = hit(model, place, &moving, &|_| 0.0)?;
     impact.apply(model, place, &mut vec![0.0; model.n_multipliers()]);
