@@ -322,9 +322,9 @@ def rolling_over(of: Units) -> Made:
     m = of.model(
         r=(0.2, s), k=(4000, weight / s), c=(0.2, 1 / v), mu=(0.3, 1), most=(0.5, 1), tilt=(0.1, s)
     )
-    m.torque("turn", "ground", "ball", torque=f"-{0.12 * weight * s * of.rate}*t")
+    m.torque("turn", "ball", torque=f"-{0.12 * weight * s * of.rate}*t")
     m.ground.curves(floor={"line": [["-20*r", "-tilt"], ["20*r", "tilt"]]})
-    of.disc(m, "ball", {"C": (0, 0)})
+    of.disc(m, "ball", {"C": (0, 0)}, center=(0.01 * s, 0))
     m.contact(
         "touch",
         "ball.C",

@@ -86,7 +86,7 @@ def test_a_disc_rolls_down_or_slips(kind: str, scale: tuple[float, float], mu: f
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_friction_oscillator_rests_at_a_known_place(kind: str) -> None:
-    """m = k = 1 and friction of 1 N: each half turn shifts the centre, from (12, 6) to rest at 15 - sqrt(205)."""
+    """m = k = 1, friction of 1 N: from (12, 6), each half turn shifts the centre by 1 m."""
     m = slope(1.0, 0.0, gravity=1.0)
     m.ground.points(O=(0, 0))
     m.body("bead", mass=1, inertia=1, points={"C": (0, 0)})
@@ -103,7 +103,7 @@ def test_friction_oscillator_rests_at_a_known_place(kind: str) -> None:
 @pytest.mark.parametrize("scale", SCALES)
 @pytest.mark.parametrize("steeper", [-1e-10, 1e-10])
 def test_a_block_on_a_slope_at_the_limit(scale: tuple[float, float], steeper: float) -> None:
-    """Two corners touch; the block slides where tan(angle) exceeds mu. The lower corner carries more."""
+    """The block slides where tan(angle) exceeds mu. Its lower corner carries more."""
     mass, size = scale
     mu = 0.4
     angle = np.arctan(mu * (1 + steeper))
@@ -127,7 +127,7 @@ def test_a_block_on_a_slope_at_the_limit(scale: tuple[float, float], steeper: fl
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("mu", [(0.4, 0.4), (0.3, 0.4)])
 def test_a_bead_on_a_slope_that_becomes_steeper(kind: str, mu: tuple[float, float]) -> None:
-    """A pull of 2 N/s along a level line: it slips at 2 t = static m g, then slides with kinetic friction."""
+    """A pull of 2 N/s: it slips at 2 t = static m g, then slides with kinetic friction."""
     kinetic, static = mu
     m = slope(1.0, 0.0)
     m.body("bead", mass=0.5, inertia=1, points={"C": (0, 0)})
@@ -173,7 +173,7 @@ def test_a_stack_of_ten_blocks_rests_on_a_slope() -> None:
 
 
 def test_a_disc_rolls_on_a_ring_and_slips_off() -> None:
-    """A disc starts on top of a fixed circle: it rolls until its friction is used up (energy), then slips."""
+    """It rolls on a fixed circle until its friction is used up, as energy tells, then slips."""
     mu, R, r, tilt = 0.3, 1.0, 0.25, 0.1
     m = kp.Model("ring", gravity=(0, -G))
     m.ground.curves(ring={"circle": (0, 0, R)})

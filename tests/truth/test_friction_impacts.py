@@ -52,7 +52,7 @@ def cradle(mode: Literal["sequential", "simultaneous"], e: float) -> list[float]
 
 
 def test_a_cradle_in_both_orders() -> None:
-    """In rounds, only the last ball leaves. At once, the first contact compresses all: Poisson doubles the impulses."""
+    """In rounds, only the last ball leaves. At once, expansion doubles all impulses."""
     assert cradle("sequential", 1.0) == pytest.approx([0, 0, 0, 0, 1], abs=1e-12)
     assert cradle("simultaneous", 1.0) == pytest.approx([-0.6, 0.4, 0.4, 0.4, 0.4], abs=1e-12)
     assert cradle("simultaneous", 0.0) == pytest.approx([0.2] * 5, abs=1e-12)
@@ -61,7 +61,7 @@ def test_a_cradle_in_both_orders() -> None:
 @pytest.mark.parametrize("scale", SCALES)
 @pytest.mark.parametrize("slender", [2.0, 4.0])
 def test_a_block_rocks_as_housner_found(scale: tuple[float, float], slender: float) -> None:
-    """A block rocks on its corners: each plastic impact multiplies its rate by 1 - 1.5 sin² alpha."""
+    """Each plastic impact on a corner multiplies the rate by 1 - 1.5 sin² alpha."""
     mass, size = scale
     b, h = size, slender * size
     m = kp.Model("rocking", gravity=(0, -G))

@@ -23,7 +23,7 @@ use crate::math::{Local, Pose, Real, Vec2, Wrench};
 
 /// A circle of body i and a curve of body j.
 #[derive(Clone, Copy)]
-pub(super) struct Touch<'e, S> {
+pub(super) struct CurveTouch<'e, S> {
     pub i: &'e PointOn<S>,
     pub curve: &'e Rim<S>,
     pub radius: S,
@@ -58,7 +58,7 @@ impl<S: Real> TouchPoint<S> {
     }
 }
 
-impl<S: Real> Touch<'_, S> {
+impl<S: Real> CurveTouch<'_, S> {
     /// The centre of the circle in the frame of body j.
     fn center(&self, i: &Pose<S>, j: &Pose<S>) -> Local<S> {
         j.rotation.inverse(i.point(self.i.s) - j.r)

@@ -273,12 +273,10 @@ fn reaction<S: Real>(
     lam: Option<&[S]>,
     t: S,
 ) -> Wrench<S> {
-    let item = &model.forces[k];
+    let (item, of_row) = (&model.forces[k], |lam: &S| reactions::of_row(*lam));
     match (item.reaction, item.load_row, lam) {
         (Some(joint), _, Some(lam)) => seen(model, joint.0, motions, lam, t),
-        (None, Some(row), Some(lam)) => {
-            lam.get(row).map_or(Wrench::zero(), |lam| reactions::of_row(*lam))
-        }
+        (None, Some(row), Some(lam)) => lam.get(row).map_or(Wrench::zero(), of_row),
         _ => Wrench::zero(),
     }
 }

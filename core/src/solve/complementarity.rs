@@ -5,7 +5,7 @@
 
 use crate::math::Listed;
 
-/// Entries below this value are no pivots. The numbers of a problem should be about 1.
+/// Smaller entries are not used as pivots. The numbers of a problem should be about 1.
 const LEAST: f64 = 1e-11;
 /// Largest number of pivots for each unknown.
 const MOST: usize = 200;

@@ -79,8 +79,13 @@ pub fn resting() -> Vec<Constraint> {
     vec![of("circle", Side::Left), of("line", Side::Right), of("points", Side::Right)]
 }
 
+/// All equations of contacts.
+pub fn held() -> Vec<Constraint> {
+    [resting(), sticking()].concat()
+}
+
 /// Equations by which contacts stick.
-pub fn sticking() -> Vec<Constraint> {
+fn sticking() -> Vec<Constraint> {
     let of = |form: &str, side: Side| {
         let (curve, radius, value) = (Rim::new(curve(form)), 0.3, 0.1);
         let equation = ContactSticking { i: on(1, 0.2, -0.4), curve, radius, side, value };

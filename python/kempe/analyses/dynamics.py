@@ -50,8 +50,6 @@ def dynamics(
     dense_output: bool = True,
     redundancy: Redundancy | None = None,
     singularity: Literal["stop", "pass"] = "stop",
-    impacts: Literal["sequential", "simultaneous"] = "sequential",
-    restitution_law: Literal["poisson", "newton"] = "poisson",
     events: Events | None = None,
     stop: str | None = None,
     release: Sequence[str] = (),
@@ -73,16 +71,13 @@ def dynamics(
         dense_output: keep the interpolant for ``sol(t)``.
         redundancy: "allow" accepts redundant constraints; by default the setting of ``start``.
         singularity: "stop" with an error where the velocity does not determine the branch, "pass".
-        impacts: "sequential" lets contacts that approach act, in rounds; "simultaneous" all closed
-            contacts in one problem.
-        restitution_law: of contacts with friction, and of simultaneous impacts: "poisson", "newton".
         events: conditions such as ``"rocker.angle > 270*deg"``, or ``kp.Event``, by name.
         stop: condition at which the run ends, the event ``stop``.
         release: drivers that no longer act, in this run and in runs that start from its states.
         parameters: other values of parameters; the start must satisfy the constraints with them.
         slopes: variables whose slopes are kept, such as ``["k", "L2"]``; see ``Solution.slope``.
         progress: function of the time reached, s; an exception ends the run.
-        limits: ``force_limit`` and others of ``kp.Dynamics``; an error or warning beyond them.
+        limits: other fields of ``kp.Dynamics``: ``impacts``, ``restitution_law``, ``force_limit``.
 
     Raises:
         AssemblyError: the start violates the constraints; see ``from_state`` of ``assemble``.
@@ -97,8 +92,6 @@ def dynamics(
     plain, actions = with_actions(events)
     given = {"events": plain, "stop": stop, "release": release, "parameters": parameters}
     given = {name: value for name, value in given.items() if value} | limits
-    law = {"impacts": (impacts, "sequential"), "restitution_law": (restitution_law, "poisson")}
-    given |= {name: value for name, (value, default) in law.items() if value != default}
     wanted = request(fields, dense_output, singularity, given)
     model = compiled.with_analyses({Dynamics.name: wanted.entry})
     along = slopes_along(compiled, start, wanted.entry, slopes, actions)

@@ -13,7 +13,7 @@
 //! An open curve ends with corners. The material of the body is on the other side of the curve.
 
 use crate::elements::hertz::{self, Hertz, Normal, SWITCHES};
-use crate::elements::touch::{Touch, TouchPoint};
+use crate::elements::touch::{CurveTouch, TouchPoint};
 use crate::elements::{
     contact, element, At, Attachment, Behaviour, BodyId, Clearance, Constraint, ContactFriction,
     Equation, Force, ForceElement, Joint, Mark, Measured, Nature, Part, ResultQuantity,
@@ -75,9 +75,9 @@ element! {
 }
 
 impl<S: Real> Contact<S> {
-    fn touch(&self) -> Touch<'_, S> {
+    fn touch(&self) -> CurveTouch<'_, S> {
         let Self { ref i, ref curve, radius, side, .. } = *self;
-        Touch { i, curve, radius, side }
+        CurveTouch { i, curve, radius, side }
     }
 
     /// The state at the place of action.
@@ -296,9 +296,9 @@ impl Force for Contact {
 }
 
 impl<S: Real> Resting<S> {
-    fn touch(&self) -> Touch<'_, S> {
+    fn touch(&self) -> CurveTouch<'_, S> {
         let Self { ref i, ref curve, radius, side } = *self;
-        Touch { i, curve, radius, side }
+        CurveTouch { i, curve, radius, side }
     }
 }
 

@@ -9,7 +9,7 @@
 //! The friction is a part of a `contact`: it has the name of the contact, and no file contains it.
 
 use crate::elements::hertz::{Hertz, Normal};
-use crate::elements::touch::{Touch, TouchPoint};
+use crate::elements::touch::{CurveTouch, TouchPoint};
 use crate::elements::{
     element, At, Attachment, Behaviour, BodyId, Constraint, Equation, Force, Joint, Mode, Nature,
     Part, ResultQuantity, Situation, Wrenches,
@@ -58,9 +58,9 @@ element! {
 }
 
 impl<S: Real> ContactFriction<S> {
-    fn touch(&self) -> Touch<'_, S> {
+    fn touch(&self) -> CurveTouch<'_, S> {
         let Self { ref i, ref curve, radius, side, .. } = *self;
-        Touch { i, curve, radius, side }
+        CurveTouch { i, curve, radius, side }
     }
 
     /// N with its derivatives with respect to the reaction, whose first component is the multiplier of a rigid
@@ -184,9 +184,9 @@ impl Force for ContactFriction {
 }
 
 impl<S: Real> ContactSticking<S> {
-    fn touch(&self) -> Touch<'_, S> {
+    fn touch(&self) -> CurveTouch<'_, S> {
         let Self { ref i, ref curve, radius, side, .. } = *self;
-        Touch { i, curve, radius, side }
+        CurveTouch { i, curve, radius, side }
     }
 }
 

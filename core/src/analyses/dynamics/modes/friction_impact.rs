@@ -18,7 +18,7 @@ use super::super::model_cache::ModelCache;
 use super::super::options::RestitutionLaw;
 use super::super::redundant_rows::workspace_at;
 use super::companions;
-use super::impacts::{Impact, Restitutions};
+use super::impact::{Impact, Restitutions};
 use super::place::{largest, StateAt};
 use crate::elements::Mode;
 use crate::equations::kinematics::Motions;
@@ -31,7 +31,7 @@ use crate::solve::complementarity;
 const GROWS: f64 = 1e-12;
 
 /// The impulses of one direction of a contact.
-struct Direction {
+struct ImpactDirection {
     force: usize,
     /// Its row in the closed model, and the sign of its coordinate.
     row: usize,
@@ -50,7 +50,7 @@ struct Direction {
 /// The closed contacts of a mechanism at an instant.
 struct Contacts {
     closed: Model,
-    all: Vec<Direction>,
+    all: Vec<ImpactDirection>,
     normals: usize,
     /// D in units of the impulses.
     compliance: Vec<Vec<f64>>,
@@ -134,7 +134,7 @@ impl Contacts {
                 let at = contacts.iter().position(|k| *k == contact).expect("its contact");
                 (at, model.forces[force].element.impulse_friction())
             });
-            all.push(Direction { force, row, sign, rate, jump, joints, unit: 1.0, of });
+            all.push(ImpactDirection { force, row, sign, rate, jump, joints, unit: 1.0, of });
             gradients.push(gradient);
         }
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();

@@ -31,11 +31,12 @@ use super::super::model_cache::ModelCache;
 use super::super::options::{ImpactOrder, RestitutionLaw};
 use super::super::passages::Struck;
 use super::super::redundant_rows::workspace_at;
+use super::impact::{Impact, Restitutions};
 use super::place::{mode_of, with_modes, StateAt, STILL};
 use super::{companions, friction_impact};
 use crate::elements::{Behaviour, Mode};
+use crate::equations::energy;
 use crate::equations::kinematics::Motions;
-use crate::equations::{constraints, energy};
 use crate::math::Listed;
 use crate::model::{ForceMode, Model};
 
@@ -45,9 +46,6 @@ const ROUNDS: usize = 10_000;
 const MANY: usize = 20;
 /// Largest change of the ratios of rates from one approach to the next in a sequence without end.
 const STEADY: f64 = 1e-9;
-
-/// The restitution of each contact.
-pub(super) type Restitutions<'r> = &'r dyn Fn(usize) -> f64;
 
 /// Contacts that hit, and their impulses.
 #[derive(Clone, Debug, Default)]
@@ -60,19 +58,6 @@ pub(super) struct Hits {
     pub couples: bool,
     /// Contacts at which a sequence of impacts without end has been replaced by its limit.
     pub ended: Vec<usize>,
-}
-
-/// An impact at some contacts.
-pub(super) struct Impact {
-    pub contacts: Vec<usize>,
-    /// The model with these contacts held, and the impulses of its rows.
-    pub closed: Model,
-    pub found: Vec<f64>,
-    /// The velocities after the impact, and the energy that it takes.
-    pub after: Vec<f64>,
-    pub loss: f64,
-    /// The contact whose restitution all have; None if each has its own.
-    pub common: Option<usize>,
 }
 
 /// The approaches of a contact at one time: their number, and the rates of all gaps at the last of them.
@@ -281,62 +266,4 @@ fn hit(
     }
     let (after, found, loss, common) = outcome.expect("it was computed");
     Ok(Impact { contacts, closed, found, after, loss, common })
-}
-
-impl Impact {
-    /// Its contacts, without restitution if it is plastic.
-    fn struck(&self, plastic: bool) -> Vec<Struck> {
-        let of = |force: &usize| {
-            let restitution = (!plastic).then(|| self.common.unwrap_or(*force));
-            let side = match self.closed.forces[*force].mode {
-                Mode::Holds(side) => side,
-                _ => 0.0,
-            };
-            Struck { force: *force, side, restitution }
-        };
-        self.contacts.iter().map(of).list()
-    }
-
-    /// The impulse with which each of its contacts pushes.
-    fn pushes(&self) -> Vec<f64> {
-        let push = |k: &usize| match (self.closed.forces[*k].mode, self.closed.forces[*k].held_row)
-        {
-            (Mode::Holds(side), Some(row)) => side * self.found[row],
-            _ => 0.0,
-        };
-        self.contacts.iter().map(push).list()
-    }
-
-    /// Changes the velocities and works of a state, and adds the impulses to a sum.
-    fn apply(&self, model: &Model, place: &mut StateAt<'_>, impulses: &mut [f64]) {
-        let base = model.layout.n_rows;
-        for (sum, own) in impulses.iter_mut().zip(&self.found[..base]) {
-            *sum += own;
-        }
-        let rubs = self.contacts.iter().filter_map(|k| model.forces[*k].partner);
-        for k in self.contacts.iter().copied().chain(rubs) {
-            let closed = &self.closed.forces[k];
-            let holds = matches!(closed.mode, Mode::Holds(_));
-            let rows = (model.forces[k].held_row, closed.held_row.filter(|_| holds));
-            if let (Some(to), Some(from)) = rows {
-                impulses[to] += self.found[from];
-            }
-        }
-        let driven = driver_work(model, place.t, place.state(model)[0], &self.found);
-        let [_, v, _, works] = model.layout.split_mut(place.y);
-        v.copy_from_slice(&self.after);
-        works[0] += self.loss + driven;
-        works[1] += driven;
-    }
-}
-
-/// Work of the impulses of drivers. The rates of their rows are -Φ_t before and after.
-fn driver_work(model: &Model, t: f64, q: &[f64], impulses: &[f64]) -> f64 {
-    if !model.driven {
-        return 0.0;
-    }
-    let at_rest = Motions::at_rest(&model.layout, q);
-    let [mut phi, mut by_time, mut gamma] = [0, 1, 2].map(|_| vec![0.0; model.layout.n_rows]);
-    constraints::velocity_terms(model, &at_rest, t, &mut phi, &mut by_time, &mut gamma);
-    by_time.iter().zip(impulses).map(|(by_time, impulse)| by_time * impulse).sum()
 }

@@ -5,6 +5,7 @@
 //! | `at_rest` | friction at states outside of runs |
 //! | `mode_events` | the functions whose zeros may change a mode |
 //! | `place` | a state at which modes are determined |
+//! | `impact` | one impact: its impulses and the velocities after it |
 //! | `impacts` | jumps of velocities where contacts hit |
 //! | `companions` | friction of contacts that press |
 //! | `dependence` | which forces can hold together, and the modes of the others |
@@ -16,6 +17,7 @@ mod companions;
 mod dependence;
 mod friction_impact;
 mod holding;
+mod impact;
 mod impacts;
 mod mode_events;
 mod place;
