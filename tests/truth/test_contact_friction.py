@@ -192,3 +192,29 @@ def test_a_disc_rolls_on_a_ring_and_slips_off() -> None:
     rolled = -(R + r) / r * (theta - tilt)
     assert slip.states[0]["disc.angle"] == pytest.approx(rolled, rel=1e-8)
     assert len(sol.events["touch.release"].t) == 1
+
+
+def test_other_curves_are_refused_with_a_remedy() -> None:
+    def bowl(**law: Any) -> kp.Model:
+        m = kp.Model("bowl", gravity=(0, -G))
+        m.ground.curves(bowl={"x": "u", "y": "u^2", "range": (-1, 1)})
+        m.body("disc", mass=1, inertia=0.005, points={"C": (0, 0)})
+        law |= {"radius": 0.1, "friction": 0.3, "side": "left"}
+        m.contact("touch", "disc.C", "ground.bowl", **law)
+        return m
+
+    with pytest.raises(kp.ModelError, match="lines and circles; on another curve give velocity"):
+        kp.assemble(bowl(restitution=0))
+    m = bowl(stiffness=1e5, velocity=0.01)
+    at = {"disc.x": 0, "disc.y": 0.1, "disc.angle": 0, "disc.vx": 1, "disc.vy": 0, "disc.omega": 0}
+    assert kp.dynamics(m, kp.assemble(m, set=at), t_end=0.01)["touch.tangential"][-1] > 0
+
+
+def test_slopes_stop_at_an_impact_with_friction() -> None:
+    m, start = disc("rigid", (1.0, 1.0), 0.0, 0.2, 1.0, 0.0)
+    at = {name: float(start[f"disc.{name}"]) for name in ("x", "angle", "vx", "omega")}
+    states = {f"disc.{name}": x for name, x in at.items()} | {"disc.y": 1.1, "disc.vy": 0}
+    case = kp.Case(m, {"set": states}, [kp.Dynamics(t_end=1.0)])
+    found = kp.gradient(case, ["disc.x.final"], ["disc.vx"])
+    assert np.isnan(found.jacobian).all()
+    assert "impact with friction" in str(found.remarks)

@@ -2,7 +2,10 @@
 
 use crate::samples::{curve, on};
 use kempe::elements::forces::{Contact, ContactFriction, ContactSticking, Resting, Stop};
-use kempe::elements::{BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Rim, Side};
+use kempe::elements::{
+    BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, ForceElement, Rim, Side,
+};
+use kempe::math::Local;
 
 pub fn stops() -> Vec<ForceElement> {
     let mut all = Vec::new();
@@ -84,14 +87,15 @@ pub fn held() -> Vec<Constraint> {
     [resting(), sticking()].concat()
 }
 
-/// Equations by which contacts stick.
+/// Equations by which contacts stick, on a line that is longer than the random places: beyond its ends, the length rolled
+/// jumps where a body is behind the line, and on a circle after half a turn.
 fn sticking() -> Vec<Constraint> {
-    let of = |form: &str, side: Side| {
-        let (curve, radius, value) = (Rim::new(curve(form)), 0.3, 0.1);
+    let of = |side: Side| {
+        let line = Curve::Line { from: Local::new(-400.0, -180.0), to: Local::new(500.0, 220.0) };
+        let curve = Rim::new(CurveOn { body: BodyId(2), curve: line });
+        let (radius, value) = (0.3, 0.1);
         let equation = ContactSticking { i: on(1, 0.2, -0.4), curve, radius, side, value };
         Constraint::ContactSticking(equation)
     };
-    let sides = [Side::Left, Side::Right];
-    let all = ["circle", "line"].into_iter().flat_map(|form| sides.map(|side| (form, side)));
-    all.map(|(form, side)| of(form, side)).collect()
+    [Side::Left, Side::Right].map(of).to_vec()
 }
