@@ -315,6 +315,33 @@ def touching(of: Units) -> Made:
     )
 
 
+def rolling_over(of: Units) -> Made:
+    """A disc slips on a compliant floor, rolls, and slips again under a growing torque."""
+    s, v = of.size, of.size * of.rate
+    weight = of.mass * v * of.rate
+    m = of.model(
+        r=(0.2, s), k=(4000, weight / s), c=(0.2, 1 / v), mu=(0.3, 1), most=(0.5, 1), tilt=(0.1, s)
+    )
+    m.torque("turn", "ball", torque=f"-{0.12 * weight * s * of.rate}*t")
+    m.ground.curves(floor={"line": [["-20*r", "-tilt"], ["20*r", "tilt"]]})
+    of.disc(m, "ball", {"C": (0, 0)}, center=(0.01 * s, 0))
+    m.contact(
+        "touch",
+        "ball.C",
+        "ground.floor",
+        radius="r",
+        side="left",
+        stiffness="k",
+        exponent=1,
+        damping="c",
+        friction="mu",
+        static="most",
+    )
+    start = {"ball.x": of.near(0.6) * s, "ball.y": 0.3 * s, "ball.vx": 0.5 * v, "ball.angle": 0.0}
+    measures = ["ball.x.final", "ball.omega.final", "energy.dissipated.final"]
+    return Made(m, measures, start, end=2.0, changes=True)
+
+
 def bouncing(of: Units) -> Made:
     """A ball bounces on a tilted floor."""
     s, v = of.size, of.size * of.rate
@@ -352,5 +379,6 @@ FORCES: list[Maker] = [
     stopped,
     stopped_below,
     touching,
+    rolling_over,
     bouncing,
 ]

@@ -49,7 +49,8 @@ def elements() -> list[Element]:
     listed = re.sub(r"\bForces \{[^}]*\}", "", listed)
     calls = re.findall(r"(?ms)^(?:constraints|forces)! \{(.*?)^\}", listed)
     groups = {"Joints", "Drivers"}
-    groups |= {"Play"}  # a joint with play, which a file writes as the joint
+    # a part of a contact, and a joint with play, which a file writes as the contact and the joint
+    groups |= {"ContactFriction", "Play"}
     names = [name for call in calls for name in re.findall(r"\w+", call) if name not in groups]
     return [element(name) for name in names]
 

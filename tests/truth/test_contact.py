@@ -89,7 +89,7 @@ def test_friction_brakes_a_sliding_disc_and_turns_it() -> None:
     inertia = 0.5 * mass * r**2
     np.testing.assert_allclose(sol["ball.alpha"], -mu * mass * G * arm / inertia, rtol=1e-9)
     # growing u of the floor is -x: on the floor, friction acts towards +x
-    np.testing.assert_allclose(sol["touch.friction"], -mu * mass * G, rtol=1e-9)
+    np.testing.assert_allclose(sol["touch.tangential"], -mu * mass * G, rtol=1e-9)
     assert np.abs(sol["energy.balance"]).max() < 1e-9
 
 

@@ -143,6 +143,8 @@ def test_faults_of_stops_and_contacts() -> None:
             kp.assemble(m)
         return str(error.value)
 
-    assert "friction needs a velocity" in contact(stiffness=1, friction=0.2)
     assert "not together with restitution" in contact(restitution=1, friction=0.2, velocity=1)
+    assert "must not be below friction" in contact(restitution=1, friction=0.2, static=0.1)
+    sticks = "belongs to friction that sticks"
+    assert sticks in contact(stiffness=1, friction=0.2, static=0.3, velocity=1)
     assert "must not be negative" in contact(stiffness=1, radius=-1)

@@ -232,7 +232,7 @@ fn describe(model: &Model) -> Value {
         "n_multipliers": model.n_multipliers(),
         "bodies": bodies.map(|(item, columns)| body(item, *columns)).collect::<Vec<_>>(),
         "constraints": (0..model.constraints.len()).map(|k| constraint(model, k)).collect::<Vec<_>>(),
-        "forces": (0..model.forces.len()).map(|k| force(model, k)).collect::<Vec<_>>(),
+        "forces": (0..model.listed_forces().len()).map(|k| force(model, k)).collect::<Vec<_>>(),
     })
 }
 
@@ -352,7 +352,7 @@ fn force(model: &Model, k: usize) -> Value {
         "reaction": item.reaction.map(|joint| model.constraints[joint.0].name.as_str()),
         "points": points.map(|ends| ends.each_ref().map(pair)),
         "results": item.element.result_quantities().iter().map(of_result).collect::<Vec<_>>(),
-        "reads_multipliers": item.reaction.is_some() || item.held_row.is_some(),
+        "reads_multipliers": item.needs_multipliers(),
         "measured": measured(item.element.measured()),
     })
 }

@@ -218,7 +218,8 @@ impl PyStates {
             self.multipliers(py)?;
             self.each(py, 3, |_, motions, acting, out| {
                 let mode = Mode::Holds(forces::side(model, k, motions, acting));
-                let resting = model.marked(&[ForceMode::new(k, mode)]);
+                let modes = model.with_companion(k).map(|k| ForceMode::new(k, mode));
+                let resting = model.marked(&modes.collect::<Vec<_>>());
                 let mut sum = Wrench::zero();
                 each_action(&resting, k, motions, acting, |_, at, wrench| {
                     if at == body {

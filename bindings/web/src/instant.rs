@@ -87,7 +87,7 @@ fn loads(model: &Model, motions: &Motions, acting: Acting<'_, f64>, lam: &[f64])
             add(&item.name, kind, on, place, load.unwrap_or_else(Wrench::zero));
         }
     }
-    for (k, item) in model.forces.iter().enumerate() {
+    for (k, item) in model.listed_forces().iter().enumerate() {
         for (n, on) in item.bodies.iter().enumerate() {
             if item.bodies[..n].contains(on) {
                 continue;

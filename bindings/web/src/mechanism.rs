@@ -12,7 +12,7 @@ pub fn mechanism(case: &Case, model: &Model) -> Value {
         let items = model.constraints.iter().filter(|item| item.group == group);
         items.map(|item| json!({ "name": item.name, "type": item.element.kind() })).collect()
     };
-    let forces = model.forces.iter();
+    let forces = model.listed_forces().iter();
     let forces: Vec<Value> =
         forces.map(|item| json!({ "name": item.name, "type": item.element.kind() })).collect();
     let blueprint = &model.blueprint;

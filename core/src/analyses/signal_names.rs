@@ -36,7 +36,7 @@ fn owners(model: &Model) -> Vec<String> {
         std::iter::once(body.name.clone()).chain(points)
     });
     let constraints = model.constraints.iter().map(|item| item.name.clone());
-    let forces = model.forces.iter().map(|item| item.name.clone());
+    let forces = model.listed_forces().iter().map(|item| item.name.clone());
     let of_run = ["energy", "drift"].map(str::to_string);
     points.chain(constraints).chain(forces).chain(of_run).list()
 }

@@ -125,12 +125,13 @@ impl Signal {
             Self::Balance => true,
             Self::Line { id: ElementId::Constraint(_) } => true,
             Self::Line { id: ElementId::Force(k) } | Self::Force { k, .. } => {
-                model.forces[*k].reaction.is_some() || model.forces[*k].held_row.is_some()
+                model.forces[*k].needs_multipliers()
             }
-            Self::ForcePower(k) | Self::ForceEnergy(k) => model.forces[*k].reaction.is_some(),
+            Self::ForcePower(k) | Self::ForceEnergy(k) => {
+                model.forces[*k].reaction.is_some() || model.forces[*k].partner.is_some()
+            }
             Self::ForceResult { k, .. } | Self::ForceDissipated(k) | Self::ForceDissipating(k) => {
-                let item = &model.forces[*k];
-                item.reaction.is_some() || item.held_row.is_some()
+                model.forces[*k].needs_multipliers()
             }
             Self::Constant(_) | Self::State(_) | Self::Energy(_) => false,
             Self::Drift { .. } => false,
@@ -240,9 +241,11 @@ fn force_on_j<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> Wrench
 
 fn power<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> S {
     let mut sum = S::zero();
-    forces::each_wrench(model, k, seen.motions, seen.acting(), |_, body, wrench| {
-        sum += wrench.power(seen.motions[body.0].twist);
-    });
+    for k in model.with_companion(k) {
+        forces::each_wrench(model, k, seen.motions, seen.acting(), |_, body, wrench| {
+            sum += wrench.power(seen.motions[body.0].twist);
+        });
+    }
     sum
 }
 

@@ -104,7 +104,18 @@ macro_rules! forces {
             }
         }
 
+        impl ForceElement<Tape> {
+            /// A second element of the force, see [`Force::companion`].
+            pub fn companion(&self) -> Option<ForceElement<Tape>> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::companion(e),)+ }
+            }
+        }
+
         impl ForceElement {
+            /// The coefficient of friction of a contact in impacts.
+            pub fn impulse_friction(&self) -> f64 {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::impulse_friction(e),)+ }
+            }
             /// The distances whose zeros begin and end a contact.
             pub fn clearances(&self) -> Vec<Clearance<'_>> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::clearances(e),)+ }

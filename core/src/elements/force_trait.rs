@@ -7,7 +7,7 @@ use super::joint_trait::{At, ResultQuantity};
 use super::measured::Measured;
 use super::mode::{Behaviour, Mode};
 use super::symbols::SceneSymbol;
-use super::Constraint;
+use super::{Constraint, ForceElement};
 use crate::expression::Tape;
 use crate::math::{Local, Motion, Real, Vec2, Wrench};
 
@@ -20,8 +20,9 @@ pub struct Situation<'a, S = f64> {
     pub bodies: &'a [BodyId],
     /// First-order states of the element, in the order of [`Force::states`].
     pub z: &'a [S],
-    /// Reaction of the joint of [`Force::reaction`] on its body j at its joint point, in the global frame. Zero
-    /// without such a joint.
+    /// Reaction of the joint of [`Force::reaction`] on its body j at its joint point, in the global frame. For a
+    /// [companion](Force::companion), the first component is the multiplier with which the contact rests. Zero without
+    /// such a joint or multiplier.
     pub reaction: Wrench<S>,
     /// Time, s.
     pub t: S,
@@ -299,6 +300,13 @@ pub trait Force: Element {
         (S::zero(), Wrench::zero())
     }
 
+    /// The coefficient of friction of a contact in impacts.
+    #[inline]
+    fn impulse_friction(e: &Self::Over<f64>) -> f64 {
+        let _ = e;
+        0.0
+    }
+
     /// Whether friction acts in one direction only, as a freewheel does: its effort on body j is not negative.
     #[inline]
     fn only_pushes<S>(e: &Self::Over<S>) -> bool {
@@ -318,6 +326,13 @@ pub trait Force: Element {
     #[inline]
     fn holding(e: &Self::Over<Tape>, side: f64, value: f64) -> Option<Constraint<Tape>> {
         let _ = (e, side, value);
+        None
+    }
+
+    /// A second element of the force, with the same name and with modes of its own: the friction of a contact.
+    #[inline]
+    fn companion(e: &Self::Over<Tape>) -> Option<ForceElement<Tape>> {
+        let _ = e;
         None
     }
 

@@ -36,6 +36,7 @@ mod plane_curve;
 mod pool;
 mod quantity_kind;
 mod symbols;
+mod touch;
 mod value;
 mod wheels;
 mod written;
@@ -86,6 +87,7 @@ pub mod forces {
     mod bushing;
     mod clutch;
     mod contact;
+    mod contact_friction;
     mod friction;
     mod generalized_force;
     mod motor;
@@ -100,6 +102,7 @@ pub mod forces {
     pub use bushing::Bushing;
     pub use clutch::Clutch;
     pub use contact::{Contact, Resting};
+    pub use contact_friction::{ContactFriction, ContactSticking};
     pub use friction::Friction;
     pub use generalized_force::GeneralizedForce;
     pub use motor::Motor;
@@ -182,7 +185,7 @@ constraints! {
         #[cfg(feature = "test-elements")] Pulley,
     }
     Drivers { CoordinateDriver }
-    Forces { Resting }
+    Forces { Resting, ContactSticking }
 }
 
 forces! {
@@ -199,6 +202,7 @@ forces! {
     Stop,
     Contact,
     Play,
+    ContactFriction,
     #[cfg(feature = "test-elements")] Lag,
     #[cfg(feature = "test-elements")] Rubbing,
     #[cfg(feature = "test-elements")] GapSpring,
@@ -212,8 +216,8 @@ pub fn catalogue() -> Vec<(Group, Table)> {
     // equations with which forces hold are not part of the format
     tables.retain(|(group, _)| *group != Group::Forces);
     tables.extend(force_tables());
-    // a joint with play is written as the joint
-    tables.retain(|(_, table)| !table.fields.is_empty());
+    // neither are parts of other forces, and a joint with play is written as the joint
+    tables.retain(|(_, table)| !table.name.contains(' '));
     tables
 }
 

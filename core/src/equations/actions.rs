@@ -17,10 +17,17 @@ pub fn each_action<S: Real>(
     mut visit: impl FnMut(usize, BodyId, Wrench<S>),
 ) {
     let arms = arms(model, k, motions, acting);
-    each_wrench(model, k, motions, acting, |part, body, w| {
-        let arm = arms.iter().find(|(own, _)| *own == body).map_or(Vec2::zero(), |(_, arm)| *arm);
-        visit(part, body, Wrench { torque: w.torque - arm.cross(w.force), ..w });
-    });
+    for own in model.with_companion(k) {
+        // the friction of a contact is the last part of the contact
+        let parts = |k: usize| model.forces[k].element.parts().len();
+        let first = parts(k) - parts(own);
+        each_wrench(model, own, motions, acting, |part, body, w| {
+            let arm = arms.iter().find(|(own, _)| *own == body);
+            let arm = arm.map_or(Vec2::zero(), |(_, arm)| *arm);
+            let torque = w.torque - arm.cross(w.force);
+            visit(first + part, body, Wrench { torque, ..w });
+        });
+    }
 }
 
 /// The global point at which force `k` acts on a body: its point, or the origin of the body for an element without

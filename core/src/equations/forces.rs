@@ -247,7 +247,7 @@ pub fn reserve<S: Real>(
     element.reserve(&reported(model, k, motions, acting))
 }
 
-/// The results of force `k` in addition to its wrenches, in `out`.
+/// The results of force `k` in addition to its wrenches, in `out`. The friction of a contact gives the last of them.
 #[inline]
 pub fn results<S: Real>(
     model: &Model<S>,
@@ -256,8 +256,11 @@ pub fn results<S: Real>(
     acting: Acting<'_, S>,
     out: &mut [S],
 ) {
-    let element = at_state(model, &model.forces[k], motions, acting);
-    element.results(&reported(model, k, motions, acting), out);
+    for k in model.with_companion(k) {
+        let element = at_state(model, &model.forces[k], motions, acting);
+        let first = out.len() - element.result_quantities().len();
+        element.results(&reported(model, k, motions, acting), &mut out[first..]);
+    }
 }
 
 /// The reaction of the joint on which force `k` depends, on its body j at its joint point, in the global frame. Zero
@@ -270,8 +273,10 @@ fn reaction<S: Real>(
     lam: Option<&[S]>,
     t: S,
 ) -> Wrench<S> {
-    match (model.forces[k].reaction, lam) {
-        (Some(joint), Some(lam)) => seen(model, joint.0, motions, lam, t),
+    let (item, of_row) = (&model.forces[k], |lam: &S| reactions::of_row(*lam));
+    match (item.reaction, item.load_row, lam) {
+        (Some(joint), _, Some(lam)) => seen(model, joint.0, motions, lam, t),
+        (None, Some(row), Some(lam)) => lam.get(row).map_or(Wrench::zero(), of_row),
         _ => Wrench::zero(),
     }
 }
@@ -374,19 +379,21 @@ pub fn potential<S: Real>(
     }
 }
 
-/// Power that force `k` dissipates, W.
+/// Power that force `k` dissipates, W, with the friction of a contact.
 pub fn dissipated<S: Real>(
     model: &Model<S>,
     k: usize,
     motions: &Motions<S>,
     acting: Acting<'_, S>,
 ) -> S {
-    let element = at_state(model, &model.forces[k], motions, acting);
-    let at = reported(model, k, motions, acting);
     let mut powers = Powers::zero();
-    element.action(&at, &mut |part: usize, body: usize, w: Wrench<S>| {
-        powers.add(element.parts()[part].nature, || w.power(at.body(body).twist));
-    });
-    powers.add_own(element.own_powers(&at));
+    for k in model.with_companion(k) {
+        let element = at_state(model, &model.forces[k], motions, acting);
+        let at = reported(model, k, motions, acting);
+        element.action(&at, &mut |part: usize, body: usize, w: Wrench<S>| {
+            powers.add(element.parts()[part].nature, || w.power(at.body(body).twist));
+        });
+        powers.add_own(element.own_powers(&at));
+    }
     powers.dissipated
 }

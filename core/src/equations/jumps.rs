@@ -39,7 +39,12 @@ impl<S: Real> Workspace<S> {
         self.jump_by(model, t, q, (impulses, &still)).map(|[jump, _]| jump)
     }
 
-    fn jump_by(
+    /// The jump of the velocities and the impulses P for generalized impulses and changes of Φ_q v: [M Φ_qᵀ; Φ_q 0] (Δv,
+    /// P) = (impulses, rates).
+    ///
+    /// # Errors
+    /// [`Breakdown`] if Φ_q loses rank.
+    pub fn jump_by(
         &mut self,
         model: &Model<S>,
         t: S,

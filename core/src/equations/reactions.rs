@@ -7,6 +7,7 @@ use crate::elements::derive::{ByThree, OfRows};
 use crate::elements::{At, Attachment, BodyId};
 use crate::math::{each, Dual, Lift, Listed, Local, Pose, Real, Rotation, Vec2, Wrench};
 use crate::model::Model;
+use std::ops::Range;
 
 /// The frame in which the components of a reaction are given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -280,4 +281,35 @@ fn reduced<S: Real>(w: Wrench<S>, pose: &Pose<S>, at: Attachment<S>, frame: Fram
 /// Converts components to the vector type. The caller is responsible for the frame.
 fn as_vector<S: Real>(s: Local<S>) -> Vec2<S> {
     Vec2::new(s.x, s.y)
+}
+
+/// The rows of the multipliers that force `k` sees as its reaction: those of its joint, or that of the contact at rest to
+/// which it belongs.
+pub(super) fn rows_seen<S>(model: &Model<S>, k: usize) -> Range<usize> {
+    let item = &model.forces[k];
+    match (item.reaction, item.load_row) {
+        (Some(joint), _) => model.layout.constraints[joint.0].rows.clone(),
+        (None, Some(row)) => row..row + 1,
+        (None, None) => 0..0,
+    }
+}
+
+/// The reaction that force `k` sees for a unit multiplier of each of these rows.
+pub(super) fn units_seen<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    t: S,
+) -> Vec<Wrench<S>> {
+    let item = &model.forces[k];
+    match (item.reaction, item.load_row) {
+        (Some(joint), _) => units(model, joint.0, motions, t),
+        (None, Some(_)) => vec![of_row(S::one())],
+        (None, None) => Vec::new(),
+    }
+}
+
+/// The reaction that stands for the multiplier of one row.
+pub(super) fn of_row<S: Real>(lam: S) -> Wrench<S> {
+    Wrench { force: Vec2::new(lam, S::zero()), torque: S::zero() }
 }

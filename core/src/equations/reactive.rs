@@ -50,7 +50,8 @@ fn takes_part<S>(model: &Model<S>, k: usize) -> bool {
     let follows = |mode: Mode| matches!(mode, Mode::Follows { leader, .. } if leader == k);
     let item = &model.forces[k];
     let led = matches!(item.mode, Mode::Follows { .. });
-    item.reaction.is_some() || led || model.forces.iter().any(|other| follows(other.mode))
+    let loaded = item.reaction.is_some() || item.load_row.is_some();
+    loaded || led || model.forces.iter().any(|other| follows(other.mode))
 }
 
 /// The rows of the multipliers on which forces or loads of joints depend, ascending.
@@ -68,11 +69,9 @@ pub fn rows<S: Real>(model: &Model<S>) -> Vec<usize> {
 /// multiplier and on the limit of the other force.
 pub fn rows_of<S>(model: &Model<S>, k: usize) -> Vec<usize> {
     let item = &model.forces[k];
-    let seen = |k: usize| model.forces[k].reaction.map(|joint| joint.0);
-    let rows = |joint: usize| model.layout.constraints[joint].rows.clone();
-    let mut all: Vec<usize> = seen(k).into_iter().flat_map(rows).list();
+    let mut all: Vec<usize> = reactions::rows_seen(model, k).list();
     if let Mode::Follows { leader, .. } = item.mode {
-        seen(leader).into_iter().flat_map(rows).append_to(&mut all);
+        reactions::rows_seen(model, leader).append_to(&mut all);
         all.extend(model.forces[leader].held_row);
     }
     all.sort_unstable();
@@ -100,7 +99,6 @@ type Sloped<S> = (S, Wrench<S>);
 impl<'m, S: Real> LoadedBearing<'m, S> {
     fn new(model: &'m Model<S>, k: usize, motions: &'m Motions<S>, acting: Acting<'m, S>) -> Self {
         let item = &model.forces[k];
-        let joint = item.reaction.map(|joint| joint.0);
         let element = forces::at_state(model, item, motions, acting);
         let at = forces::situation(model, k, motions, acting);
         Self {
@@ -109,8 +107,8 @@ impl<'m, S: Real> LoadedBearing<'m, S> {
             base: element.effort(&at).0,
             element,
             at,
-            first: joint.map_or(0, |joint| model.layout.constraints[joint].rows.start),
-            units: joint.map_or_else(Vec::new, |k| reactions::units(model, k, motions, acting.t)),
+            first: reactions::rows_seen(model, k).start,
+            units: reactions::units_seen(model, k, motions, acting.t),
         }
     }
 

@@ -42,6 +42,8 @@ pub struct Blueprint {
     pub constraints: Arc<Vec<(String, Group, Constraint<Tape>)>>,
     /// Forces, with their first-order states.
     pub forces: Arc<Vec<LinkedForce>>,
+    /// The last forces are companions of these forces, see [`Force::companion`](crate::elements::Force::companion).
+    pub companions: Arc<Vec<usize>>,
     /// The modes of forces in a phase of a run. Forces that hold have the last constraints, in this order.
     pub modes: Vec<ForceMode>,
     /// Number of the last constraints that equations of second order imply.
@@ -140,6 +142,17 @@ impl Blueprint {
         true
     }
 
+    /// Adds the companions of all forces.
+    pub(super) fn add_companions(&mut self) {
+        let of = |(k, (name, _, force)): (usize, &LinkedForce)| {
+            Some((k, (name.clone(), &[][..], force.companion()?)))
+        };
+        let found: (Vec<usize>, Vec<LinkedForce>) =
+            self.forces.iter().enumerate().filter_map(of).unzip();
+        self.companions = found.0.into();
+        Arc::make_mut(&mut self.forces).extend(found.1);
+    }
+
     /// The mechanism with additional drivers that hold coordinates at given laws. Assembly solves this model.
     pub fn holding(&self, held: &[(String, Followed<Tape>, Tape)]) -> Self {
         let drivers = held.iter().map(|(name, coordinate, value)| {
@@ -152,7 +165,12 @@ impl Blueprint {
     /// The mechanism with only some of its constraints, and without forces.
     pub fn keeping(&self, kept: &[usize]) -> Self {
         let constraints = kept.iter().map(|k| self.constraints[*k].clone()).list();
-        Self { constraints: constraints.into(), forces: Arc::default(), ..self.clone() }
+        Self {
+            constraints: constraints.into(),
+            forces: Arc::default(),
+            companions: Arc::default(),
+            ..self.clone()
+        }
     }
 
     /// A body by name.

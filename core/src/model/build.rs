@@ -40,6 +40,7 @@ pub fn build(
         bodies: bodies.clone().into(),
         constraints: Arc::default(),
         forces: Arc::default(),
+        companions: Arc::default(),
         functions: definition.functions.clone(),
         doubts: Vec::new(),
         modes: Vec::new(),
@@ -56,6 +57,7 @@ pub fn build(
             blueprint.link(group, entry, &scope, &quantities, &mut problems);
         }
     }
+    blueprint.add_companions();
     for (k, unit) in scope.units.take() {
         let functions = blueprint.functions.iter_mut();
         functions.for_each(|functions| functions.laws[k].unit.clone_from(&unit));

@@ -189,6 +189,12 @@ pub struct ForceItem<S = f64> {
     pub states: &'static [OwnState],
     /// The joint whose reaction the force uses.
     pub reaction: Option<JointId>,
+    /// The index of the friction of a contact, or of the contact of a friction, see [`Force::companion`](crate::elements::Force::companion).
+    pub partner: Option<usize>,
+    /// Whether the force is the friction of a contact.
+    pub is_companion: bool,
+    /// The row of λ on which the force depends in place of the reaction of a joint.
+    pub load_row: Option<usize>,
     /// The element. If there is a `law`, the element has the values of its formulas at t = 0.
     pub element: ForceElement<S>,
     /// The element over formulas, if one of them depends on time or state.
@@ -201,4 +207,11 @@ pub struct ForceItem<S = f64> {
     /// The row of λ of the equation by which the force holds. If this equation is not in the model, the row follows
     /// all rows of the model, in the order of the forces with modes.
     pub held_row: Option<usize>,
+}
+
+impl<S> ForceItem<S> {
+    /// Whether its results need multipliers.
+    pub fn needs_multipliers(&self) -> bool {
+        self.reaction.is_some() || self.held_row.is_some() || self.partner.is_some()
+    }
 }

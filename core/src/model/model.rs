@@ -188,9 +188,19 @@ fn forces<S: Real>(
             first_switch,
             mode: Mode::Open,
             held_row: None,
+            partner: None,
+            is_companion: false,
+            load_row: None,
         }
     });
-    items.list()
+    let mut all: Vec<ForceItem<S>> = items.list();
+    let first = all.len() - blueprint.companions.len();
+    for (k, of) in blueprint.companions.iter().enumerate().map(|(k, of)| (first + k, *of)) {
+        (all[of].partner, all[k].partner) = (Some(k), Some(of));
+        // both read the same switches
+        (all[k].is_companion, all[k].first_switch) = (true, all[of].first_switch);
+    }
+    all
 }
 
 impl<S> Model<S> {
@@ -214,6 +224,15 @@ impl<S> Model<S> {
             1 => item.name.clone(),
             _ => format!("{}.{}", item.name, item.equations[equation].name),
         }
+    }
+    /// The forces that a case contains, without their companions.
+    pub fn listed_forces(&self) -> &[ForceItem<S>] {
+        &self.forces[..self.forces.len() - self.blueprint.companions.len()]
+    }
+    /// Force `k`, and its companion.
+    pub fn with_companion(&self, k: usize) -> impl Iterator<Item = usize> {
+        let item = &self.forces[k];
+        std::iter::once(k).chain(item.partner.filter(|_| !item.is_companion))
     }
     /// A force by name.
     pub fn force(&self, name: &str) -> Option<usize> {

@@ -3,7 +3,7 @@
 use super::items::{ConstraintItem, ForceItem, ForceMode};
 use super::layout::StateLayout;
 use crate::elements::{Group, Mode};
-use crate::math::Real;
+use crate::math::{Listed, Real};
 
 /// Sets the modes of forces, and the indices of their multipliers.
 pub(super) fn set<S: Real>(
@@ -28,5 +28,10 @@ pub(super) fn set<S: Real>(
                 forces[*force].held_row = Some(slots.rows.start);
             }
         }
+    }
+    for k in (0..forces.len()).filter(|k| forces[*k].is_companion).list() {
+        let of = forces[k].partner.map(|of| &forces[of]);
+        let rests = of.filter(|of| matches!(of.mode, Mode::Holds(_)));
+        forces[k].load_row = rests.and_then(|of| of.held_row);
     }
 }

@@ -32,7 +32,8 @@ impl Model {
         for (name, _, formula) in blueprint.constraints.iter() {
             found.push((name.as_str(), formula.map(value).symbols()));
         }
-        for (name, _, formula) in blueprint.forces.iter() {
+        let listed = blueprint.forces.len() - blueprint.companions.len();
+        for (name, _, formula) in &blueprint.forces[..listed] {
             found.push((name.as_str(), formula.map(value).symbols()));
         }
         found

@@ -66,7 +66,9 @@ impl Model {
             let Mode::Holds(side) = mode else { continue };
             let equation = element.holding(*side, *value);
             let equation = equation.expect("a force that holds has an equation");
-            let held = (format!("{name} (at rest)"), Group::Forces, equation);
+            let first = self.blueprint.forces.len() - self.blueprint.companions.len();
+            let how = if *force < first { "at rest" } else { "sticking" };
+            let held = (format!("{name} ({how})"), Group::Forces, equation);
             Arc::make_mut(&mut blueprint.constraints).push(held);
         }
         Self::new(&Arc::new(blueprint), &self.parameters)

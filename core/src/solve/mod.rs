@@ -55,6 +55,7 @@
 //! |---|---|
 //! | `lu_symbolic` | order and fill of an unsymmetric block matrix |
 //! | `block_lu` | its factors, real or complex |
+//! | `complementarity` | linear complementarity problems |
 //! | `dense` | small dense systems |
 //! | `symmetric` | eigenvalues and eigenvectors of dense symmetric matrices |
 //! | `null_space` | null vectors of a matrix whose rank is known |
@@ -65,6 +66,7 @@
 mod block;
 mod block_lu;
 mod breakdown;
+pub mod complementarity;
 mod condensed;
 mod dense;
 mod eigenvalues;

@@ -74,7 +74,7 @@ pub fn constraints() -> Vec<Constraint> {
         pins_and_slides(),
         wheels(),
         on_curves(),
-        crate::touching::resting(),
+        crate::touching::held(),
         by_formulas(),
         of_tests(),
         drivers(),

@@ -1,8 +1,11 @@
 //! Samples of stops and contacts.
 
 use crate::samples::{curve, on};
-use kempe::elements::forces::{Contact, Resting, Stop};
-use kempe::elements::{BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Rim, Side};
+use kempe::elements::forces::{Contact, ContactFriction, ContactSticking, Resting, Stop};
+use kempe::elements::{
+    BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, ForceElement, Rim, Side,
+};
+use kempe::math::Local;
 
 pub fn stops() -> Vec<ForceElement> {
     let mut all = Vec::new();
@@ -38,9 +41,32 @@ pub fn contacts() -> Vec<ForceElement> {
                 exponent: 1.5,
                 damping: 0.3,
                 friction: 0.2,
+                r#static: None,
                 velocity: Some(0.5),
                 restitution: None,
                 rest_speed: 1e-9,
+            }));
+        }
+    }
+    all.extend(rubbing_contacts());
+    all
+}
+
+/// The friction of contacts that slides and sticks.
+fn rubbing_contacts() -> Vec<ForceElement> {
+    let mut all = Vec::new();
+    for form in ["circle", "line"] {
+        for side in [Side::Right, Side::Left] {
+            all.push(ForceElement::ContactFriction(ContactFriction {
+                i: on(1, 0.2, -0.4),
+                curve: Rim::new(curve(form)),
+                radius: 0.3,
+                side,
+                stiffness: Some(1.0),
+                exponent: 1.5,
+                damping: 0.3,
+                kinetic: 0.2,
+                r#static: 0.3,
             }));
         }
     }
@@ -54,4 +80,22 @@ pub fn resting() -> Vec<Constraint> {
         Constraint::Resting(Resting { i: on(1, 0.2, -0.4), curve, radius: 0.3, side })
     };
     vec![of("circle", Side::Left), of("line", Side::Right), of("points", Side::Right)]
+}
+
+/// All equations of contacts.
+pub fn held() -> Vec<Constraint> {
+    [resting(), sticking()].concat()
+}
+
+/// Equations by which contacts stick, on a line that is longer than the random places: beyond its ends, the length rolled
+/// jumps where a body is behind the line, and on a circle after half a turn.
+fn sticking() -> Vec<Constraint> {
+    let of = |side: Side| {
+        let line = Curve::Line { from: Local::new(-400.0, -180.0), to: Local::new(500.0, 220.0) };
+        let curve = Rim::new(CurveOn { body: BodyId(2), curve: line });
+        let (radius, value) = (0.3, 0.1);
+        let equation = ContactSticking { i: on(1, 0.2, -0.4), curve, radius, side, value };
+        Constraint::ContactSticking(equation)
+    };
+    [Side::Left, Side::Right].map(of).to_vec()
 }

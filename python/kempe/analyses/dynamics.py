@@ -77,7 +77,7 @@ def dynamics(
         parameters: other values of parameters; the start must satisfy the constraints with them.
         slopes: variables whose slopes are kept, such as ``["k", "L2"]``; see ``Solution.slope``.
         progress: function of the time reached, s; an exception ends the run.
-        limits: ``force_limit`` and others of ``kp.Dynamics``; an error or warning beyond them.
+        limits: other fields of ``kp.Dynamics``: ``impacts``, ``restitution_law``, ``force_limit``.
 
     Raises:
         AssemblyError: the start violates the constraints; see ``from_state`` of ``assemble``.

@@ -11,7 +11,7 @@ use super::guard::{self, Guard};
 use super::model_cache::ModelCache;
 use super::modes::{self, StateAt};
 use super::option_checks::check_lengths;
-use super::options::Options;
+use super::options::{ImpactOrder, Options, RestitutionLaw};
 use super::passages::Passage;
 use super::planned_events::{conditions, planned, watched, Effect, Planned};
 use super::run::{run_phase, Phase, PhaseEnd, Progress};
@@ -92,6 +92,7 @@ pub(super) struct PhasedRun {
     /// The conditions of the events, for this model.
     conditions: Arc<Vec<Option<Condition>>>,
     pub at: Progress,
+    impacts: (ImpactOrder, RestitutionLaw),
     stall: Stall,
     pub guard: Guard,
 }
@@ -114,6 +115,7 @@ impl PhasedRun {
             own,
             conditions: Arc::default(),
             at: Progress::begin(base, start, options, run),
+            impacts: (options.impacts, options.restitution_law),
             stall: Stall::default(),
             guard: Guard::new(usual_energy(base), options),
         };
@@ -236,7 +238,7 @@ impl PhasedRun {
         base: &Model,
         (run, passage): (&mut Run, &mut Passage),
     ) -> Result<(), Box<Failure>> {
-        let Self { events, at, setting, .. } = self;
+        let Self { events, at, setting, impacts, .. } = self;
         let open = setting.open(base).map_err(|problems| impossible(&problems, at.t))?;
         let of_force = |index: &usize| match events[*index].effect {
             Effect::Mode { force, .. } => Some(force),
@@ -245,7 +247,7 @@ impl PhasedRun {
         let fired: Vec<usize> = at.fired.iter().filter_map(of_force).list();
         let (t, before) = (at.t, at.y.clone());
         let mut place = StateAt { t, y: &mut at.y };
-        let settled = modes::settle(&open, &mut place, &setting.modes, &fired)?;
+        let settled = modes::settle(&open, &mut place, &setting.modes, &fired, *impacts)?;
         let index = |force: usize, of: usize| {
             let wanted = Effect::Mode { force, place: of };
             events.iter().position(|event| event.effect == wanted).expect("it was planned")
@@ -260,6 +262,7 @@ impl PhasedRun {
         }
         setting.modes = settled.modes;
         (passage.impacts, passage.collapsed) = (settled.impacts, settled.collapsed);
+        passage.couples |= settled.couples;
         Ok(())
     }
 

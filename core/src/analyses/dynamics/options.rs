@@ -33,6 +33,28 @@ pub enum Singularity {
     Pass,
 }
 
+/// The contacts that act in an impact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ImpactOrder {
+    /// Those that approach, in rounds until none approaches.
+    #[default]
+    Sequential,
+    /// All that are closed, in one complementarity problem.
+    Simultaneous,
+}
+
+/// The meaning of the restitution where contacts have friction or act together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RestitutionLaw {
+    /// The impulse of expansion over the impulse of compression.
+    #[default]
+    Poisson,
+    /// The rate of a gap after the impact over the rate before it.
+    Newton,
+}
+
+words!(ImpactOrder { "sequential" => Self::Sequential, "simultaneous" => Self::Simultaneous });
+words!(RestitutionLaw { "poisson" => Self::Poisson, "newton" => Self::Newton });
 words!(Output { "steps" => Self::Steps });
 words!(Singularity { "stop" => Self::Stop, "pass" => Self::Pass });
 
@@ -60,6 +82,13 @@ options! {
         /// Behaviour at a singular position where the motion does not determine its branch. "stop"
         /// ends the run with an error. "pass" continues, and rounding determines the branch.
         singularity: Singularity = Singularity::Stop,
+        /// Contacts and stops that act in an impact. "sequential": those that approach, in rounds until
+        /// none approaches. "simultaneous": all that are closed, in one complementarity problem.
+        impacts: ImpactOrder = ImpactOrder::Sequential,
+        /// Restitution where contacts have friction or act simultaneously. "poisson": the impulse of
+        /// expansion over that of compression. "newton": the rate after the impact over that before
+        /// it; the run ends where this would gain energy.
+        restitution_law: RestitutionLaw = RestitutionLaw::Poisson,
         /// "steps" reports the steps of the solver, which is also the default without
         /// `output_step`.
         output: Option<Output> = None,

@@ -21,6 +21,8 @@ pub struct Passage {
     pub impacts: Vec<Vec<Struck>>,
     /// Whether a sequence of impacts without end has been replaced by its limit.
     pub collapsed: bool,
+    /// Whether contacts with friction, or all closed contacts, acted together in an impact.
+    pub couples: bool,
     /// Whether the caller has replaced the state.
     pub replaced: bool,
 }

@@ -115,7 +115,9 @@ pub(super) fn watched<'c>(
         if let Effect::Mode { force, place } = event.effect {
             let (function, direction) = watched_mode(model, force, place);
             let has_mode = modes::has_mode(model, force);
-            let ends = has_mode && place != modes::GRAZE;
+            // the friction of a compliant contact begins and ends with the contact
+            let rubs = model.forces[force].partner.is_some();
+            let ends = (has_mode || rubs) && place != modes::GRAZE;
             // a compliant contact acts as soon as the gap is negative
             let error = accuracy * modes::gap_unit(model, force);
             let shallow = if modes::is_contact(model, force) { error } else { 0.0 };
@@ -126,7 +128,7 @@ pub(super) fn watched<'c>(
                 function: EventFunction::Mode(function),
                 direction,
                 ends,
-                listed: !ends,
+                listed: !has_mode || !ends,
             };
         }
         let done = matches!(&event.effect, Effect::Release(driver) if released.contains(driver));

@@ -225,13 +225,15 @@ impl<'a> MotionSlopes<'a> {
             all.extend(Trigger::of_switches(&self.ode.model, &run.held[self.held + 1]));
         }
         if self.ends_phase(self.step) {
-            let passage = run.passages.get(self.phase + 1);
-            let passage =
-                passage.ok_or_else(|| format!("the change at t = {t:.6} s is not known"))?;
+            let unknown = || format!("the change at t = {t:.6} s is not known");
+            let passage = run.passages.get(self.phase + 1).ok_or_else(unknown)?;
             if let Some(name) = self.ends_rebounds(passage) {
                 return Err(format!(
                     "{name} comes to rest at t = {t:.6} s after impacts without end, which derivatives do not follow"
                 ));
+            }
+            if passage.couples {
+                return Err(format!("an impact with friction or at once at t = {t:.6} s"));
             }
             if passage.replaced {
                 return Err(format!("an action replaces the state at t = {t:.6} s"));

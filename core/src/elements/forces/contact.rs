@@ -3,32 +3,34 @@
 //! The gap is the distance of Pᵢ from the nearest point C(u) of the curve, minus the radius. The distance is positive
 //! on the `side` of the curve. For a compliant contact with the depth δ = -gap, N = max(0, k δⁿ (1 + c δ̇)) (n = 1.5:
 //! Hertz; the factor with c: Hunt and Crossley). N acts at C(u), on body j along -ν and on body i along ν, where ν is
-//! the normal towards the side. The friction force on body i at C(u) is -μ N tanh(v/v₀) along growing u, with the
-//! tangential velocity v of body i relative to body j.
+//! the normal towards the side. With v₀, the friction force on body i at C(u) is -μ N tanh(v/v₀) along growing u, with the
+//! tangential velocity v of body i relative to body j. Without v₀, the friction slides and sticks; it is an element of its
+//! own, the companion of the contact.
 //!
 //! With a coefficient of restitution e, there is no depth. If the gap closes at the rate ġ, it opens at the rate -e ġ
 //! after an impact of the whole mechanism, or the bodies rest on each other, held by the equation gap(q) = 0.
 //!
 //! An open curve ends with corners. The material of the body is on the other side of the curve.
 
-use crate::elements::foot::Near;
-use crate::elements::hertz::{self, Depth, Hertz, Normal, SWITCHES};
+use crate::elements::hertz::{self, Hertz, Normal, SWITCHES};
+use crate::elements::touch::{CurveTouch, TouchPoint};
 use crate::elements::{
-    contact, element, At, Attachment, Behaviour, BodyId, Clearance, Constraint, Equation, Force,
-    Joint, Mark, Measured, Nature, Part, PointOn, ResultQuantity, Rim, SceneSymbol, Side,
-    Situation, SymbolEnd, Wrenches,
+    contact, element, At, Attachment, Behaviour, BodyId, Clearance, Constraint, ContactFriction,
+    Equation, Force, ForceElement, Joint, Mark, Measured, Nature, Part, ResultQuantity,
+    SceneSymbol, Situation, SymbolEnd, Wrenches,
 };
 use crate::expression::Tape;
-use crate::math::{Local, Pose, Real, Vec2, Wrench};
+use crate::math::{Local, Real, Vec2};
 
 element! {
     /// Contact of a point or circle of body i with a curve of body j. The gap is the distance of
     /// the point from the curve, positive on its `side`, minus `radius`. The depth is -gap. At a
     /// positive depth, the force stiffness × depth^exponent × (1 + damping × d depth/dt), if
     /// positive, pushes the bodies apart. It acts at the nearest point of the curve along the
-    /// normal. The friction force at this point is friction × normal force × tanh(v/velocity),
-    /// opposite to the tangential velocity v. With `restitution`, there is no friction: the bodies
-    /// separate with -restitution times the rate of their approach, or rest on each other.
+    /// normal. The friction force is friction × normal force, opposite to the tangential velocity v. Where
+    /// v is zero, the contact may stick, up to static × normal force. With `velocity`, the friction
+    /// force is friction × normal force × tanh(v/velocity), and never sticks. With `restitution`, the
+    /// bodies separate with -restitution times the rate of their approach, or rest on each other.
     Contact, "contact" {
         /// Point of body i, as `body.point`.
         i: point,
@@ -44,9 +46,12 @@ element! {
         exponent: number = 1.5,
         /// Damping factor: the force is multiplied by 1 + damping × rate of the depth.
         damping: number [s/m] = 0.0,
-        /// Coefficient of friction; a value above 0 requires `velocity`.
+        /// Coefficient of friction while the contact slides.
         friction: number = 0.0,
-        /// Tangential velocity at which the friction has 76 % of its full value.
+        /// Coefficient of friction up to which the contact sticks; friction if absent.
+        r#static: optional_number,
+        /// Tangential velocity at which the friction has 76 % of its full value. Without it, the
+        /// contact may stick.
         velocity: optional_number [m/s],
         /// Rate after an impact over the rate before it, from 0 to 1; in place of `stiffness`.
         restitution: optional_number,
@@ -69,64 +74,25 @@ element! {
     }
 }
 
-/// The nearest point of the curve, for the poses of the bodies.
-fn near<S: Real>(
-    (on, rim, side): (&PointOn<S>, &Rim<S>, Side),
-    i: &Pose<S>,
-    j: &Pose<S>,
-) -> Near<S> {
-    rim.near(j.rotation.inverse(i.point(on.s) - j.r), side)
-}
+impl<S: Real> Contact<S> {
+    fn touch(&self) -> CurveTouch<'_, S> {
+        let Self { ref i, ref curve, radius, side, .. } = *self;
+        CurveTouch { i, curve, radius, side }
+    }
 
-/// The state of the contact at the nearest point of the curve, in the global frame.
-struct TouchPoint<S> {
-    gap: S,
-    gap_rate: S,
-    /// The velocity along growing u.
-    sliding: S,
-    /// ν, away from body j, and the direction of growing u.
-    away: Vec2<S>,
-    along: Vec2<S>,
-    /// The vectors from the origins of bodies i and j to the point of contact.
-    arms: [Vec2<S>; 2],
-}
-
-impl<S: Real> TouchPoint<S> {
-    fn new(e: &Contact<S>, at: &Situation<'_, S>) -> Self {
-        let (i, j) = (at.i(), at.j());
-        let Near { distance, away, place } = near((&e.i, &e.curve, e.side), &i.pose, &j.pose);
-        let turned = S::constant(match e.side {
-            Side::Right => 1.0,
-            Side::Left => -1.0,
-        });
-        let away = j.pose.global(away);
-        let along = away.perp().scale(turned);
-        let on_j = j.pose.global(place);
-        let on_i = j.pose.r + on_j - i.pose.r;
-        let velocity = |arm: Vec2<S>, k: usize| {
-            let twist = at.body(k).twist;
-            twist.velocity + arm.perp().scale(twist.omega)
-        };
-        let apart = velocity(on_i, 0) - velocity(on_j, 1);
-        Self {
-            gap: distance - e.radius,
-            gap_rate: away.dot(apart),
-            sliding: along.dot(apart),
-            away,
-            along,
-            arms: [on_i, on_j],
+    /// The state at the place of action.
+    fn point(&self, at: &Situation<'_, S>) -> TouchPoint<S> {
+        match self.sticks() {
+            true => self.touch().at_pitch(at),
+            false => self.touch().at_foot(at),
         }
     }
+}
 
-    fn depth(&self) -> Depth<S> {
-        Depth { value: -self.gap, rate: -self.gap_rate }
-    }
-
-    /// The wrenches on bodies i and j of a force on i at the point of contact.
-    fn wrenches(&self, force: Vec2<S>) -> [Wrench<S>; 2] {
-        // adding zero removes negative zeros, which occur in lanes without contact
-        let at = |arm, force| Wrench::at(arm, force) + Wrench::zero();
-        [at(self.arms[0], force), at(self.arms[1], -force)]
+impl<S> Contact<S> {
+    /// Whether it may have friction that sticks.
+    fn sticks(&self) -> bool {
+        self.velocity.is_none() && self.curve.is_closed_form()
     }
 }
 
@@ -182,18 +148,18 @@ impl Force for Contact {
     }
 
     fn measure<S: Real>(e: &Contact<S>, at: &At<'_, S>, out: &mut [S]) {
-        out[0] = near((&e.i, &e.curve, e.side), at.i(), at.j()).distance - e.radius;
+        out[0] = e.touch().gap(at.i(), at.j());
     }
 
     fn arms<S: Real>(e: &Contact<S>, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {
-        Some(TouchPoint::new(e, at).arms)
+        Some(e.point(at).arms)
     }
 
     fn action<S: Real>(e: &Contact<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         if is_free(e, at) {
             return;
         }
-        let touch = TouchPoint::new(e, at);
+        let touch = e.point(at);
         let Some(normal) = normal(e, at, &touch) else { return };
         let mut put = |part: usize, force: Vec2<S>| {
             for (body, wrench) in touch.wrenches(force).into_iter().enumerate() {
@@ -217,7 +183,7 @@ impl Force for Contact {
 
     fn switches<S: Real>(e: &Contact<S>, at: &Situation<'_, S>, out: &mut [S]) {
         if let Some(law) = law(e) {
-            law.switches(TouchPoint::new(e, at).depth(), out);
+            law.switches(e.point(at).depth(), out);
         }
     }
 
@@ -231,14 +197,18 @@ impl Force for Contact {
     fn result_quantities<S>(_: &Contact<S>) -> &'static [ResultQuantity] {
         &[
             ResultQuantity { name: "force", unit: "N", negative: None },
-            ResultQuantity { name: "friction", unit: "N", negative: None },
+            ResultQuantity { name: "tangential", unit: "N", negative: None },
+            ResultQuantity { name: "sliding", unit: "m/s", negative: None },
+            ResultQuantity { name: "sticking", unit: "", negative: None },
         ]
     }
 
-    /// N, and the friction force on body j along growing u.
+    /// N, the friction force on body j along growing u, and the sliding velocity. Friction that sticks replaces the
+    /// last three.
     fn results<S: Real>(e: &Contact<S>, at: &Situation<'_, S>, out: &mut [S]) {
         out.fill(S::zero());
-        let touch = TouchPoint::new(e, at);
+        let touch = e.point(at);
+        out[2] = touch.sliding;
         if let Some(normal) = normal(e, at, &touch).map(Normal::sum) {
             out[0] = normal;
             out[1] = friction(e, &touch, normal).unwrap_or(S::zero());
@@ -253,8 +223,28 @@ impl Force for Contact {
     }
 
     fn threshold<S: Real>(e: &Contact<S>, at: &Situation<'_, S>) -> S {
-        let near = near((&e.i, &e.curve, e.side), &at.i().pose, &at.j().pose);
-        near.distance - e.radius
+        e.touch().gap(&at.i().pose, &at.j().pose)
+    }
+
+    fn companion(e: &Contact<Tape>) -> Option<ForceElement<Tape>> {
+        if !e.sticks() || e.friction.constant() == Some(0.0) {
+            return None;
+        }
+        let (i, curve, radius, side) = (e.i.clone(), e.curve.clone(), e.radius.clone(), e.side);
+        let (exponent, damping) = (e.exponent.clone(), e.damping.clone());
+        let (stiffness, kinetic) = (e.stiffness.clone(), e.friction.clone());
+        let r#static = e.r#static.clone().unwrap_or_else(|| kinetic.clone());
+        Some(ForceElement::ContactFriction(ContactFriction {
+            i,
+            curve,
+            radius,
+            side,
+            stiffness,
+            exponent,
+            damping,
+            kinetic,
+            r#static,
+        }))
     }
 
     fn clearances(e: &Contact) -> Vec<Clearance<'_>> {
@@ -277,16 +267,23 @@ impl Force for Contact {
     fn fault(e: &Contact) -> Option<(&'static str, String)> {
         let refuse = |field, message: &str| Some((field, message.to_string()));
         let curve = &e.curve.on.curve;
+        let most = e.r#static.unwrap_or(e.friction);
         match e.velocity {
             _ if e.radius < 0.0 => return refuse("radius", "must not be negative"),
             _ if e.friction < 0.0 => return refuse("friction", "must not be negative"),
-            _ if e.friction > 0.0 && e.restitution.is_some() => {
-                return refuse("friction", "not together with restitution; remove one of them");
-            }
-            None if e.friction > 0.0 => {
-                return refuse("velocity", "missing; friction needs a velocity, such as 0.01");
+            _ if most < e.friction => return refuse("static", "must not be below friction"),
+            None if most > 0.0 && !e.curve.is_closed_form() => {
+                let message = "friction that sticks acts on lines and circles; on another curve give velocity, such as \
+                               0.01, and stiffness";
+                return refuse("friction", message);
             }
             Some(velocity) if velocity <= 0.0 => return refuse("velocity", "must be positive"),
+            Some(_) if e.restitution.is_some() => {
+                return refuse("velocity", "not together with restitution; remove it");
+            }
+            Some(_) if e.r#static.is_some() => {
+                return refuse("static", "belongs to friction that sticks; remove velocity");
+            }
             _ => {}
         }
         if curve.fault().is_none() {
@@ -295,6 +292,13 @@ impl Force for Contact {
             }
         }
         hertz::fault(e.stiffness, [e.exponent, 1.5], e.damping, [e.restitution, Some(e.rest_speed)])
+    }
+}
+
+impl<S: Real> Resting<S> {
+    fn touch(&self) -> CurveTouch<'_, S> {
+        let Self { ref i, ref curve, radius, side } = *self;
+        CurveTouch { i, curve, radius, side }
     }
 }
 
@@ -308,7 +312,7 @@ impl Joint for Resting {
     }
 
     fn residual<S: Real>(e: &Resting<S>, at: &At<'_, S>, phi: &mut [S]) {
-        phi[0] = near((&e.i, &e.curve, e.side), at.i(), at.j()).distance - e.radius;
+        phi[0] = e.touch().gap(at.i(), at.j());
     }
 
     fn attachment<S: Real>(e: &Resting<S>, body: usize) -> Attachment<S> {
@@ -316,6 +320,6 @@ impl Joint for Resting {
     }
 
     fn contact<S: Real>(e: &Resting<S>, at: &At<'_, S>) -> Option<Local<S>> {
-        Some(near((&e.i, &e.curve, e.side), at.i(), at.j()).place)
+        Some(e.touch().near(at.i(), at.j()).place)
     }
 }

@@ -5,6 +5,7 @@
 //! friction exceeds its limit, the force with the largest excess is released.
 
 use super::super::failure::Failure;
+use super::companions;
 use super::dependence::{holders_of_friction, independent};
 use super::impacts::{self, restitution};
 use super::place::{drivers_rest, largest, mode_of, unit, with_modes, StateAt, STILL};
@@ -26,8 +27,8 @@ const LOW: f64 = 1e-10;
 /// Rate of a gap, as a fraction of the mechanism's size per second or in rad/s, below which the next flight is so low
 /// that rounding errors of the gap matter.
 const SLOW: f64 = 2e-7;
-/// Largest number of forces for which all combinations are tried.
-const MOST_TRIED: usize = 5;
+/// Largest number of combinations that are tried.
+const MOST_TRIED: usize = 1500;
 /// Forces below this fraction of the forces of a state are noise.
 const NOISE: f64 = 1e-13;
 
@@ -49,6 +50,10 @@ pub(super) fn decide(
     let holders = holders_of_friction(model, place, &all);
     let (mut modes, mut candidates) = (Vec::new(), Vec::new());
     for ((k, threshold), holders) in all.iter().zip(&thresholds).zip(&holders) {
+        if !companions::may_rub(model, place, *k, (before, &rest, fired)) {
+            modes.push(ForceMode::new(*k, Mode::Free));
+            continue;
+        }
         let (free, candidate) = match model.forces[*k].element.behaviour() {
             Some(Behaviour::Sticks) => {
                 let rests = drivers_rest(model, *holders, place.t, place.state(model)[0]);
@@ -167,13 +172,17 @@ fn hold(
     let all: Vec<(usize, f64)> = candidates.iter().copied().zip(sides).list();
     let found = released(model, place, free.clone(), (&all, ended));
     let fits = |modes: &[ForceMode]| moves_apart(model, place, modes, candidates);
-    if found.as_ref().is_ok_and(|modes| fits(modes)) || candidates.len() > MOST_TRIED {
+    // friction holds or slides in two directions; a contact rests or is free
+    let rubs = |k: &usize| free.iter().any(|of| of.force == *k && of.mode != Mode::Free);
+    let ways = candidates.iter().map(|k| if rubs(k) { 3_usize } else { 2 }).list();
+    let count = ways.iter().fold(1, |all: usize, own| all.saturating_mul(*own));
+    if found.as_ref().is_ok_and(|modes| fits(modes)) || count > MOST_TRIED {
         return found;
     }
     // a force that was released early may have to hold after all: all combinations are tried, those in which most
     // forces hold first
-    for choice in 0..3_usize.pow(candidates.len() as u32) {
-        let of = |place: usize| choice / 3_usize.pow(place as u32) % 3;
+    for choice in 0..count {
+        let of = |place: usize| choice / ways[..place].iter().product::<usize>() % ways[place];
         let (mut now, mut left) = (free.clone(), Vec::new());
         for (place, (k, side)) in all.iter().enumerate() {
             let own = now.iter_mut().find(|of| of.force == *k).expect("it has modes");
@@ -223,13 +232,15 @@ fn with_held(
     left: &[(usize, f64)],
 ) -> Vec<ForceMode> {
     let mut modes = free.to_vec();
-    for own in independent(model, place, free, left) {
+    let left = left.iter().copied().filter(|(k, _)| companions::may_hold(model, *k, left)).list();
+    for own in independent(model, place, free, &left) {
         // at the start of a run, no force has a mode yet
         match modes.iter_mut().find(|of| of.force == own.force) {
             Some(of) => *of = own,
             None => modes.push(own),
         }
     }
+    companions::release(model, &mut modes);
     modes
 }
 
@@ -245,6 +256,7 @@ fn moves_apart(
     let fastest = largest(workspace.a());
     let gaps = place.gap_jets(model, candidates, workspace.a());
     let fits = |(k, jet): (&usize, Jet)| match mode_of(modes, *k) {
+        Mode::Free if model.forces[*k].is_companion => true,
         Mode::Free => jet.second >= -STILL * fastest,
         Mode::Slides(sign) => sign * jet.rate >= -STILL * fastest,
         _ => true,

@@ -23,15 +23,20 @@
 //!
 //! which has one solution v⁺: the nearest to v⁻ in the norm of M (Moreau, *Liaisons unilatérales sans frottement et chocs
 //! inélastiques*, C. R. Acad. Sci. Paris 296 (1983) 1473). Without restitution, it is the law of the impact itself.
+//!
+//! `friction_impact.rs` contains the impacts of contacts with friction, and of all closed contacts together.
 
 use super::super::failure::Failure;
 use super::super::model_cache::ModelCache;
+use super::super::options::{ImpactOrder, RestitutionLaw};
 use super::super::passages::Struck;
 use super::super::redundant_rows::workspace_at;
-use super::place::{mode_of, with_modes, StateAt};
+use super::impact::{Impact, Restitutions};
+use super::place::{mode_of, with_modes, StateAt, STILL};
+use super::{companions, friction_impact};
 use crate::elements::{Behaviour, Mode};
+use crate::equations::energy;
 use crate::equations::kinematics::Motions;
-use crate::equations::{constraints, energy};
 use crate::math::Listed;
 use crate::model::{ForceMode, Model};
 
@@ -42,9 +47,6 @@ const MANY: usize = 20;
 /// Largest change of the ratios of rates from one approach to the next in a sequence without end.
 const STEADY: f64 = 1e-9;
 
-/// The restitution of each contact.
-type Restitutions<'r> = &'r dyn Fn(usize) -> f64;
-
 /// Contacts that hit, and their impulses.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hits {
@@ -52,21 +54,10 @@ pub(super) struct Hits {
     pub impulses: Vec<f64>,
     /// The contacts of each impact, in order.
     pub impacts: Vec<Vec<Struck>>,
+    /// Whether contacts with friction, or all closed contacts, acted together.
+    pub couples: bool,
     /// Contacts at which a sequence of impacts without end has been replaced by its limit.
     pub ended: Vec<usize>,
-}
-
-/// An impact at some contacts.
-struct Impact {
-    contacts: Vec<usize>,
-    /// The model with these contacts held, and the impulses of its rows.
-    closed: Model,
-    found: Vec<f64>,
-    /// The velocities after the impact, and the energy that it takes.
-    after: Vec<f64>,
-    loss: f64,
-    /// The contact whose restitution all have; None if each has its own.
-    common: Option<usize>,
 }
 
 /// The approaches of a contact at one time: their number, and the rates of all gaps at the last of them.
@@ -101,6 +92,7 @@ pub(super) fn resolve(
     model: &Model,
     place: &mut StateAt<'_>,
     touching: &[usize],
+    (order, law): (ImpactOrder, RestitutionLaw),
 ) -> Result<Hits, Box<Failure>> {
     let mut found = Hits::default();
     let mut seen = vec![Approaches::default(); touching.len()];
@@ -115,13 +107,19 @@ pub(super) fn resolve(
             found.impulses = vec![0.0; model.n_multipliers()];
         }
         let endless = is_endless(&mut seen, &approaching, &rates) || round == ROUNDS;
-        let impact = match plastic || endless {
+        let own = |k: usize| if endless { 0.0 } else { restitution(model, k).0 };
+        let all = plastic || endless || order == ImpactOrder::Simultaneous;
+        let approach: Vec<(usize, f64)> =
+            approaching.iter().map(|at| (touching[*at], rates[*at])).list();
+        let hit_ones: Vec<usize> = approach.iter().map(|(k, _)| *k).list();
+        let acting = if all { touching } else { &hit_ones };
+        let couples = order == ImpactOrder::Simultaneous || companions::rub(model, acting);
+        let impact = match all {
+            _ if couples => friction_impact::strike(model, place, acting, (&own, law))?,
             true => together(model, place, touching)?,
-            false => {
-                let approach = approaching.iter().map(|at| (touching[*at], rates[*at])).list();
-                hit(model, place, &approach, &|k| restitution(model, k).0)?
-            }
+            false => hit(model, place, &approach, &own)?,
         };
+        found.couples |= couples;
         impact.apply(model, place, &mut found.impulses);
         found.impacts.push(impact.struck(plastic || endless));
         found.hits.extend(&impact.contacts);
@@ -205,7 +203,7 @@ fn together(
     Ok(impact)
 }
 
-/// Removes the small gap rates of contacts that come to rest.
+/// Removes the small gap rates of contacts that come to rest. Contacts that stick there continue to do so.
 pub(super) fn halt(
     model: &Model,
     place: &mut StateAt<'_>,
@@ -213,9 +211,15 @@ pub(super) fn halt(
 ) -> Result<(), Box<Failure>> {
     let rates = place.gap_rates(model, contacts);
     let moving = contacts.iter().copied().zip(rates).filter(|(_, rate)| *rate != 0.0);
-    let moving: Vec<(usize, f64)> = moving.list();
+    let mut moving: Vec<(usize, f64)> = moving.list();
     if moving.is_empty() {
         return Ok(());
+    }
+    let rubs: Vec<usize> = contacts.iter().filter_map(|k| model.forces[*k].partner).list();
+    if !rubs.is_empty() {
+        let still = STILL * place.speed_scale(model, &[]);
+        let slow = rubs.iter().copied().zip(place.thresholds(model, &rubs));
+        moving.extend(slow.filter(|(_, speed)| speed.abs() <= still));
     }
     let impact = hit(model, place, &moving, &|_| 0.0)?;
     impact.apply(model, place, &mut vec![0.0; model.n_multipliers()]);
@@ -262,59 +266,4 @@ fn hit(
     }
     let (after, found, loss, common) = outcome.expect("it was computed");
     Ok(Impact { contacts, closed, found, after, loss, common })
-}
-
-impl Impact {
-    /// Its contacts, without restitution if it is plastic.
-    fn struck(&self, plastic: bool) -> Vec<Struck> {
-        let of = |force: &usize| {
-            let restitution = (!plastic).then(|| self.common.unwrap_or(*force));
-            let side = match self.closed.forces[*force].mode {
-                Mode::Holds(side) => side,
-                _ => 0.0,
-            };
-            Struck { force: *force, side, restitution }
-        };
-        self.contacts.iter().map(of).list()
-    }
-
-    /// The impulse with which each of its contacts pushes.
-    fn pushes(&self) -> Vec<f64> {
-        let push = |k: &usize| match (self.closed.forces[*k].mode, self.closed.forces[*k].held_row)
-        {
-            (Mode::Holds(side), Some(row)) => side * self.found[row],
-            _ => 0.0,
-        };
-        self.contacts.iter().map(push).list()
-    }
-
-    /// Changes the velocities and works of a state, and adds the impulses to a sum.
-    fn apply(&self, model: &Model, place: &mut StateAt<'_>, impulses: &mut [f64]) {
-        let base = model.layout.n_rows;
-        for (sum, own) in impulses.iter_mut().zip(&self.found[..base]) {
-            *sum += own;
-        }
-        for k in &self.contacts {
-            let rows = (model.forces[*k].held_row, self.closed.forces[*k].held_row);
-            if let (Some(to), Some(from)) = rows {
-                impulses[to] += self.found[from];
-            }
-        }
-        let driven = driver_work(model, place.t, place.state(model)[0], &self.found);
-        let [_, v, _, works] = model.layout.split_mut(place.y);
-        v.copy_from_slice(&self.after);
-        works[0] += self.loss + driven;
-        works[1] += driven;
-    }
-}
-
-/// Work of the impulses of drivers. The rates of their rows are -Φ_t before and after.
-fn driver_work(model: &Model, t: f64, q: &[f64], impulses: &[f64]) -> f64 {
-    if !model.driven {
-        return 0.0;
-    }
-    let at_rest = Motions::at_rest(&model.layout, q);
-    let [mut phi, mut by_time, mut gamma] = [0, 1, 2].map(|_| vec![0.0; model.layout.n_rows]);
-    constraints::velocity_terms(model, &at_rest, t, &mut phi, &mut by_time, &mut gamma);
-    by_time.iter().zip(impulses).map(|(by_time, impulse)| by_time * impulse).sum()
 }

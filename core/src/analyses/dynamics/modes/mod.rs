@@ -5,13 +5,19 @@
 //! | `at_rest` | friction at states outside of runs |
 //! | `mode_events` | the functions whose zeros may change a mode |
 //! | `place` | a state at which modes are determined |
+//! | `impact` | one impact: its impulses and the velocities after it |
 //! | `impacts` | jumps of velocities where contacts hit |
+//! | `companions` | friction of contacts that press |
 //! | `dependence` | which forces can hold together, and the modes of the others |
+//! | `friction_impact` | impacts of contacts with friction, and of all closed contacts together |
 //! | `holding` | contacts that rest and friction that sticks |
 
 mod at_rest;
+mod companions;
 mod dependence;
+mod friction_impact;
 mod holding;
+mod impact;
 mod impacts;
 mod mode_events;
 mod place;
@@ -25,8 +31,9 @@ use crate::math::Listed;
 use place::{largest, with_modes};
 
 use super::failure::{Failure, Reason};
+use super::options::{ImpactOrder, RestitutionLaw};
 use super::passages::Struck;
-use crate::elements::Behaviour;
+use crate::elements::{Behaviour, Mode};
 use crate::model::{ForceMode, Model};
 use dependence::holders;
 use impacts::Hits;
@@ -42,6 +49,8 @@ pub(super) struct Settled {
     pub impulses: Vec<f64>,
     /// The impacts in order.
     pub impacts: Vec<Vec<Struck>>,
+    /// Whether contacts with friction, or all closed contacts, acted together.
+    pub couples: bool,
     /// Whether a sequence of impacts without end has been replaced by its limit.
     pub collapsed: bool,
     /// Other changes: the force, and the place of its event.
@@ -58,10 +67,12 @@ pub(super) fn settle(
     place: &mut StateAt<'_>,
     before: &[ForceMode],
     fired: &[usize],
+    law: (ImpactOrder, RestitutionLaw),
 ) -> Result<Settled, Box<Failure>> {
     let touching = impacts::touching(model, place, before);
     let fastest = largest(place.state(model)[1]);
-    let Hits { hits, impulses, impacts, ended } = impacts::resolve(model, place, &touching)?;
+    let Hits { hits, impulses, impacts, couples, ended } =
+        impacts::resolve(model, place, &touching, law)?;
     let jumped = (!hits.is_empty()).then_some(fastest);
     let modes = holding::decide(model, place, before, (&touching, fired, jumped))?;
     let collapsed = !ended.is_empty();
@@ -69,12 +80,14 @@ pub(super) fn settle(
     for (old, new) in before.iter().zip(&modes) {
         let sticks = matches!(model.forces[old.force].element.behaviour(), Some(Behaviour::Sticks));
         match (old.mode.holds(), new.mode.holds(), sticks) {
+            // its contact separates
+            (true, false, true) if new.mode == Mode::Free => {}
             (false, true, true) => changed.push((old.force, 0)),
             (true, false, _) if !hits.contains(&old.force) => changed.push((old.force, 1)),
             _ => {}
         }
     }
-    Ok(Settled { modes, hits, impulses, impacts, collapsed, changed })
+    Ok(Settled { modes, hits, impulses, impacts, couples, collapsed, changed })
 }
 
 /// Refuses a start beyond a stop or contact with restitution, and a stop whose coordinate is held by drivers.

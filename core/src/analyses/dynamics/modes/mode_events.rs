@@ -110,7 +110,19 @@ pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction,
     let threshold = |sign: f64| ModeFunction::Threshold { force, sign, slack, held_by };
     let (gap, falling) = (threshold(1.0), Direction::Falling);
     let reserve = ModeFunction::Reserve { force, slack };
+    // whether a compliant contact whose friction has modes is closed
+    let rubs = item.partner.map(|of| model.forces[of].mode).filter(|of| *of != Mode::Open);
+    let closed = rubs.map(|mode| mode != Mode::Free);
     match (item.element.behaviour(), item.mode, place) {
+        (Some(Behaviour::Compliant { .. }), _, 0) if closed == Some(true) => {
+            (ModeFunction::Never, falling)
+        }
+        (Some(Behaviour::Compliant { .. }), _, 1) if closed == Some(true) => {
+            (threshold(-1.0), falling)
+        }
+        (Some(Behaviour::Compliant { .. }), _, 1) if closed == Some(false) => {
+            (ModeFunction::Never, falling)
+        }
         (Some(Behaviour::Compliant { .. }), _, 0) => (gap, falling),
         (Some(Behaviour::Compliant { .. }), _, 1) => (gap, Direction::Rising),
         (Some(Behaviour::Compliant { .. }), _, GRAZE) => (gap, falling),

@@ -1,0 +1,246 @@
+//! Impacts of several contacts at once, with friction: a linear complementarity problem.
+//!
+//! The rates of the gaps ġ and the sliding velocities σ of the contacts depend on their impulses, (ġ, σ)⁺ = (ġ, σ)⁻ +
+//! D (Λ_N, Λ_T), with D = G M̂⁻¹ Gᵀ and the inverse mass M̂⁻¹ of the mechanism with its joints and drivers. In the plane
+//! Coulomb's law has two edges,
+//!
+//! ```text
+//! 0 ≤ Λ_N ⟂ ġ ≥ 0     |Λ_T| ≤ μ Λ_N     Λ_T = -μ Λ_N sign σ where σ ≠ 0
+//! ```
+//!
+//! which is a linear complementarity problem (Stewart and Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673). Poisson's
+//! law takes two of them: compression ends with ġ ≥ 0; in expansion, Λ_N is at least e times that of compression
+//! (Glocker and Pfeiffer, *Multiple impacts with friction in rigid multibody systems*, Nonlinear Dynamics 7 (1995) 471).
+//! Newton's law takes one, with ġ⁺ + e ġ⁻ in place of ġ. μ is the coefficient of sliding friction.
+
+use super::super::failure::{Failure, Reason};
+use super::super::model_cache::ModelCache;
+use super::super::options::RestitutionLaw;
+use super::super::redundant_rows::workspace_at;
+use super::companions;
+use super::impact::{Impact, Restitutions};
+use super::place::{largest, StateAt};
+use crate::elements::Mode;
+use crate::equations::kinematics::Motions;
+use crate::equations::{constraints, energy};
+use crate::math::Listed;
+use crate::model::{ForceMode, Model};
+use crate::solve::complementarity;
+
+/// Growth of the kinetic energy that counts as a rounding error.
+const GROWS: f64 = 1e-12;
+
+/// The impulses of one direction of a contact.
+struct ImpactDirection {
+    force: usize,
+    /// Its row in the closed model, and the sign of its coordinate.
+    row: usize,
+    sign: f64,
+    /// The rate before the impact.
+    rate: f64,
+    /// The jump of the velocities and the impulses of the joints for a unit impulse.
+    jump: Vec<f64>,
+    joints: Vec<f64>,
+    /// The unit of its impulse.
+    unit: f64,
+    /// For friction: the place of its contact among the normal directions, and μ.
+    of: Option<(usize, f64)>,
+}
+
+/// The closed contacts of a mechanism at an instant.
+struct Contacts {
+    closed: Model,
+    all: Vec<ImpactDirection>,
+    normals: usize,
+    /// D in units of the impulses.
+    compliance: Vec<Vec<f64>>,
+}
+
+/// Computes the impact of these contacts, each with its restitution.
+///
+/// # Errors
+/// [`Failure`] where there is no solution, or where the law gains energy.
+pub(super) fn strike(
+    model: &Model,
+    place: &StateAt<'_>,
+    contacts: &[usize],
+    (own, law): (Restitutions<'_>, RestitutionLaw),
+) -> Result<Impact, Box<Failure>> {
+    let found = Contacts::new(model, place, contacts)?;
+    let [q, v, _] = place.state(model);
+    let kinetic = |v: &[f64]| energy::kinetic(model, &Motions::at(&model.layout, q, v));
+    let before = kinetic(v);
+    let least = contacts.iter().copied().min_by(|a, b| own(*a).total_cmp(&own(*b)));
+    let name = |k: usize| model.forces[k].name.clone();
+    let first = name(least.unwrap_or_default());
+    let fails = |name: String, message: String| {
+        let t = place.t;
+        Reason::Singular { t, name, message: format!("{message} at t = {t:.6} s") }.into()
+    };
+    // first with the individual restitutions
+    for common in [None, least] {
+        let e = |at: usize| own(common.unwrap_or(found.all[at].force));
+        let Some(impulses) = found.impulses(&e, law) else {
+            let message = format!("no impulses agree with the friction of {first} in an impact");
+            return Err(fails(first, message));
+        };
+        let mut after = v.to_vec();
+        for (own, x) in found.all.iter().zip(&impulses) {
+            after.iter_mut().zip(&own.jump).for_each(|(v, jump)| *v += x * jump);
+        }
+        let loss = before - kinetic(&after);
+        if loss >= -GROWS * before {
+            return Ok(found.impact(model, contacts, &impulses, (after, loss, common)));
+        }
+        if law == RestitutionLaw::Newton {
+            break;
+        }
+    }
+    let message = format!(
+        "restitution and friction of {first} would gain energy in an impact; use \
+         restitution_law = \"poisson\", the same restitution for all contacts, or a smaller one"
+    );
+    Err(fails(first, message))
+}
+
+impl Contacts {
+    fn new(model: &Model, place: &StateAt<'_>, contacts: &[usize]) -> Result<Self, Box<Failure>> {
+        let rubs: Vec<usize> = contacts.iter().filter_map(|k| model.forces[*k].partner).list();
+        let sides = place.sides(model, contacts);
+        let held = contacts.iter().zip(&sides).map(|(k, side)| (*k, *side));
+        let held = held.chain(rubs.iter().map(|k| (*k, 0.0)));
+        let modes = held.map(|(k, side)| ForceMode::new(k, Mode::Holds(side))).list();
+        let closed = model.in_modes(&modes).allowing_redundancy();
+        let (t, [q, v, z]) = (place.t, place.state(model));
+        let motions = Motions::at(&closed.layout, q, v);
+        let mut entries = vec![0.0; closed.layout.n_entries];
+        constraints::jacobian(&closed, &motions, t, &mut entries);
+        let mut workspace = workspace_at((model, &ModelCache::default()), t, [q, v, z]);
+        let rates = [place.gap_rates(model, contacts), place.thresholds(model, &rubs)].concat();
+        let (mut all, mut gradients) = (Vec::new(), Vec::new());
+        let forces = contacts.iter().copied().zip(sides.iter().map(|side| -side));
+        let forces = forces.chain(rubs.iter().map(|k| (*k, 1.0)));
+        for ((force, sign), rate) in forces.zip(rates) {
+            let row = closed.forces[force].held_row.expect("it holds");
+            let (mut unit, mut gradient) =
+                (vec![0.0; closed.layout.n_rows], vec![0.0; model.layout.n_q]);
+            unit[row] = sign;
+            constraints::add_transposed(&closed, &entries, &unit, &mut gradient);
+            let still = vec![0.0; model.layout.n_rows];
+            let jump = workspace.jump_by(model, t, q, (&gradient, &still));
+            let [jump, joints] =
+                jump.map_err(|breakdown| Failure::at_state(model, t, q, breakdown))?;
+            let of = companions::contact_of(model, force).map(|contact| {
+                let at = contacts.iter().position(|k| *k == contact).expect("its contact");
+                (at, model.forces[force].element.impulse_friction())
+            });
+            all.push(ImpactDirection { force, row, sign, rate, jump, joints, unit: 1.0, of });
+            gradients.push(gradient);
+        }
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let mut compliance: Vec<Vec<f64>> =
+            gradients.iter().map(|w| all.iter().map(|own| dot(w, &own.jump)).list()).list();
+        // the units make the diagonal 1, except where a driver holds the direction
+        let most = (0..all.len()).map(|k| compliance[k][k]).fold(0.0, f64::max);
+        for (k, own) in all.iter_mut().enumerate() {
+            own.unit = 1.0 / compliance[k][k].max(1e-24 * most).sqrt();
+        }
+        for (i, row) in compliance.iter_mut().enumerate() {
+            row.iter_mut().zip(&all).for_each(|(x, own)| *x *= own.unit * all[i].unit);
+        }
+        Ok(Self { closed, all, normals: contacts.len(), compliance })
+    }
+
+    /// The impulses of all directions. `e` is the restitution of a normal direction.
+    fn impulses(&self, e: &dyn Fn(usize) -> f64, law: RestitutionLaw) -> Option<Vec<f64>> {
+        let rates: Vec<f64> = self.all.iter().map(|own| own.rate * own.unit).list();
+        let scale = largest(&rates).max(f64::MIN_POSITIVE);
+        let rates: Vec<f64> = rates.iter().map(|rate| rate / scale).list();
+        let none = vec![0.0; self.all.len()];
+        let mut sum = match law {
+            RestitutionLaw::Newton => {
+                let mut wanted = rates;
+                for (k, rate) in wanted[..self.normals].iter_mut().enumerate() {
+                    *rate *= if *rate < 0.0 { 1.0 + e(k) } else { 1.0 };
+                }
+                self.solve(&wanted, &none)?
+            }
+            RestitutionLaw::Poisson => {
+                let compression = self.solve(&rates, &none)?;
+                let least = |k: usize| if k < self.normals { e(k) * compression[k] } else { 0.0 };
+                let given: Vec<f64> = (0..self.all.len()).map(least).list();
+                let start = compression.iter().zip(&given).map(|(a, b)| a + b).list();
+                let more = match given.iter().all(|x| *x == 0.0) {
+                    true => none,
+                    false => self.solve(&self.after(&rates, &start), &given)?,
+                };
+                start.iter().zip(&more).map(|(a, b)| a + b).list()
+            }
+        };
+        sum.iter_mut().zip(&self.all).for_each(|(x, own)| *x *= scale * own.unit);
+        Some(sum)
+    }
+
+    /// The rates after impulses.
+    fn after(&self, rates: &[f64], impulses: &[f64]) -> Vec<f64> {
+        let of = |row: &Vec<f64>| row.iter().zip(impulses).map(|(d, x)| d * x).sum::<f64>();
+        rates.iter().zip(&self.compliance).map(|(rate, row)| rate + of(row)).list()
+    }
+
+    /// The impulses that complement these rates. Friction may also use the normal impulses that are `given`.
+    fn solve(&self, rates: &[f64], given: &[f64]) -> Option<Vec<f64>> {
+        let (n, m) = (self.normals, self.all.len() - self.normals);
+        // Λ_N, the two directions of friction, and the slack of each friction
+        let column = |k: usize| match k {
+            k if k < n => (k, 1.0),
+            k if k < n + m => (k, 1.0),
+            k => (k - m, -1.0),
+        };
+        let size = n + 3 * m;
+        let (mut a, mut b) = (vec![vec![0.0; size]; size], vec![0.0; size]);
+        for i in 0..n + 2 * m {
+            let (row, sign) = column(i);
+            b[i] = sign * rates[row];
+            for k in 0..n + 2 * m {
+                let (other, direction) = column(k);
+                a[i][k] = sign * direction * self.compliance[row][other];
+            }
+        }
+        for k in 0..m {
+            let own = &self.all[n + k];
+            let (normal, mu) = own.of.expect("a friction has a contact");
+            let mu = mu * self.all[normal].unit / own.unit;
+            let slack = n + 2 * m + k;
+            (a[n + k][slack], a[n + m + k][slack]) = (1.0, 1.0);
+            (a[slack][normal], b[slack]) = (mu, mu * given[normal]);
+            (a[slack][n + k], a[slack][n + m + k]) = (-1.0, -1.0);
+        }
+        let z = complementarity::solve(&a, &b)?;
+        let of = |k: usize| if k < n { z[k] } else { z[k] - z[k + m] };
+        Some((0..n + m).map(of).list())
+    }
+
+    fn impact(
+        self,
+        model: &Model,
+        contacts: &[usize],
+        impulses: &[f64],
+        (after, loss, common): (Vec<f64>, f64, Option<usize>),
+    ) -> Impact {
+        let Self { closed, all, .. } = self;
+        let mut found = vec![0.0; closed.layout.n_rows];
+        for (own, x) in all.iter().zip(impulses) {
+            found.iter_mut().zip(&own.joints).for_each(|(sum, joint)| *sum += x * joint);
+        }
+        for (own, x) in all.iter().zip(impulses) {
+            found[own.row] = -own.sign * x;
+        }
+        let pushes = |k: &&usize| {
+            let own = all.iter().position(|own| own.force == **k);
+            own.is_some_and(|at| impulses[at] > 0.0 || all[at].rate < 0.0)
+        };
+        let contacts = contacts.iter().filter(pushes).copied().list();
+        debug_assert!(model.layout.n_rows <= found.len());
+        Impact { contacts, closed, found, after, loss, common }
+    }
+}
