@@ -18,6 +18,7 @@ Dynamics:
 
 Making:
     balance                 counterweights for the shaking force
+    cam                     profile of a cam for a programme of its follower
     gear_train              tooth numbers for a ratio
 
 Pin loads:
@@ -29,6 +30,7 @@ Pin loads:
 
 from kempe.base.arguments import explain_functions
 from kempe.design.balance import Balance, Counterweight, balance
+from kempe.design.cams import Cam, cam
 from kempe.design.centres import InstantCentre, instant_centre
 from kempe.design.coupler_curve import CouplerCurve, coupler_curve
 from kempe.design.duty import Duty, Flywheel, duty, flywheel
@@ -58,6 +60,7 @@ from kempe.design.wrenches import Inertia, Load
 
 __all__ = [
     "Balance",
+    "Cam",
     "Counterweight",
     "CouplerCurve",
     "Duty",
@@ -76,6 +79,7 @@ __all__ = [
     "TransmissionAngle",
     "acceleration_polygon",
     "balance",
+    "cam",
     "coupler_curve",
     "duty",
     "export_load_cases",
