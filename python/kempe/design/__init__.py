@@ -19,6 +19,7 @@ Dynamics:
 Making:
     balance                 counterweights for the shaking force
     cam                     profile of a cam for a programme of its follower
+    read_programme          the programme in a CSV file
     gear_train              tooth numbers for a ratio
 
 Pin loads:
@@ -30,7 +31,7 @@ Pin loads:
 
 from kempe.base.arguments import explain_functions
 from kempe.design.balance import Balance, Counterweight, balance
-from kempe.design.cams import Cam, cam
+from kempe.design.cams import Cam, cam, read_programme
 from kempe.design.centres import InstantCentre, instant_centre
 from kempe.design.coupler_curve import CouplerCurve, coupler_curve
 from kempe.design.duty import Duty, Flywheel, duty, flywheel
@@ -92,6 +93,7 @@ __all__ = [
     "pin_load",
     "pin_loads",
     "pin_table",
+    "read_programme",
     "shaking",
     "toggles",
     "transmission_angle",

@@ -252,7 +252,7 @@ def _end(given: Any, path: str, unit: str) -> list[float]:
     found = list(given)
     if len(found) > 4:
         refuse(path, f"{len(found)} derivatives; must be at most four")
-    return [value(x, f"{path}[{k}]", "") for k, x in enumerate(found, 1)]
+    return [value(x, f"{path}[{k}]", "m" if unit == "m" else "") for k, x in enumerate(found, 1)]
 
 
 def _polynomial(ends: list[list[float]], place: tuple[float, float, float, float]) -> Piece:

@@ -98,7 +98,7 @@ def cam(
         refuse("face", "only an oscillating flat follower has it; leave it out")
     made = programme_of(programme, "m" if far is None else "rad")
     of.check(made.size)
-    drive = _drive(speed, mass, spring, gravity)
+    drive = _drive(speed, mass, spring, gravity, far is None)
     result = Cam(made, of, cw, closure, drive)
     result.at(np.zeros(1))
     return result
@@ -137,9 +137,11 @@ def _pivoted(arm: Number | None, pivot: Sequence[Number] | None) -> tuple[float 
     return far, complex(x, y)
 
 
-def _drive(speed: Number, mass: Number, spring: Sequence[Number], gravity: Number) -> Drive:
+def _drive(
+    speed: Number, mass: Number, spring: Sequence[Number], gravity: Number, translating: bool
+) -> Drive:
     """Speed, mass and spring as numbers."""
-    turned = value(speed, "speed", "rad/s")
+    turned = value(speed, "speed", "s^-1")
     heavy = value(mass, "mass", "kg")
     if not 0.0 < turned < np.inf:
         refuse("speed", f"{turned:g} rad/s; must be > 0; direction='cw' turns the other way")
@@ -147,7 +149,9 @@ def _drive(speed: Number, mass: Number, spring: Sequence[Number], gravity: Numbe
         refuse("mass", f"{heavy:g} kg; must not be negative")
     if isinstance(spring, str) or len(spring) != 2:
         refuse("spring", f"{spring!r}; must be (stiffness, force at no lift)")
-    stiffness, force = (value(x, f"spring[{k}]", "") for k, x in enumerate(spring, 1))
+    units = ("N/m", "N") if translating else ("N*m", "N*m")
+    pairs = zip(("spring[1]", "spring[2]"), spring, units, strict=True)
+    stiffness, force = (value(x, path, unit) for path, x, unit in pairs)
     if stiffness < 0.0:
         refuse("spring", f"{stiffness:g}; the stiffness must not be negative")
-    return Drive(turned, heavy, (stiffness, force), value(gravity, "gravity", "m/s^2"))
+    return Drive(turned, heavy, (stiffness, force), value(gravity, "gravity", "m*s^-2"))
