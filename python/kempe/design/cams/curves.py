@@ -17,7 +17,8 @@ from kempe.design.cams.shape import Complexes, Follower, Shape, shape
 from kempe.errors import ModelError
 
 #: Steps of the angle: the largest, and the least beside ends of pieces, where derivatives jump; and
-#: the growth of the steps with the distance from these.
+#: the growth of the steps with the distance from these. Larger steps in dwells are worse: the
+#: parameter of a spline through points is their chord length.
 _STEP, _FINE, _GROWTH = pi / 360.0, 3e-5, 0.25
 
 

@@ -129,7 +129,7 @@ def _pivoted(arm: Number | None, pivot: Sequence[Number] | None) -> tuple[float 
     far = value(arm, "arm", "m")
     if not 0.0 < far < np.inf:
         refuse("arm", f"{far:g} m; must be > 0")
-    if isinstance(pivot, str) or len(pivot) != 2:
+    if isinstance(pivot, str) or not hasattr(pivot, "__len__") or len(pivot) != 2:
         refuse("pivot", f"{pivot!r}; must be (x, y)")
     x, y = (value(part, "pivot", "m") for part in pivot)
     if not 0.0 < np.hypot(x, y) < np.inf:
@@ -147,7 +147,7 @@ def _drive(
         refuse("speed", f"{turned:g} rad/s; must be > 0; direction='cw' turns the other way")
     if not 0.0 <= heavy < np.inf:
         refuse("mass", f"{heavy:g} kg; must not be negative")
-    if isinstance(spring, str) or len(spring) != 2:
+    if isinstance(spring, str) or not hasattr(spring, "__len__") or len(spring) != 2:
         refuse("spring", f"{spring!r}; must be (stiffness, force at no lift)")
     units = ("N/m", "N") if translating else ("N*m", "N*m")
     pairs = zip(("spring[1]", "spring[2]"), spring, units, strict=True)
