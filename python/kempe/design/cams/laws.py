@@ -51,6 +51,7 @@ _POWERS: dict[str, list[float]] = {
     "poly345": [0.0, 0.0, 0.0, 10.0, -15.0, 6.0],
     "poly4567": [0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0],
 }
+#: The named laws of a segment.
 LAWS = (*_JOINED, *_POWERS)
 
 
@@ -119,7 +120,16 @@ def unit_law(name: str) -> list[Piece]:
 
 @dataclass(frozen=True)
 class Programme:
-    """The lift over a turn of the cam.
+    """The lift over a turn of the cam, from segments with these laws.
+
+    * "cycloidal", "harmonic", "modified_sine", "modified_trapezoid", "poly345", "poly4567", and
+      "linear" with a constant speed;
+    * ``{"type": "polynomial", "start": [speed, acceleration, …], "end": […]}``: the polynomial of
+      least degree with these derivatives by the angle at its ends, up to four, [0, 0] if absent;
+    * ``{"type": "spline", "points": [(angle, lift), …], "start": [speed, acceleration], "end":
+      […]}``: the quintic spline through points, with angles from the beginning of the segment.
+
+    Source: Norton, Cam Design and Manufacturing Handbook, 2nd edition, 2009, chapters 2 and 3.
 
     Attributes:
         pieces: from 0 to 2π.

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -35,30 +36,18 @@ def cam(
 ) -> Cam:
     """A cam whose shaft is at the origin, for a follower that moves by a programme.
 
-    A translating follower moves upwards along the line x = ``offset``. An oscillating one has an
-    ``arm`` and a ``pivot``; its arm reaches over the cam, so that a lift turns it clockwise if the
-    pivot is at the right, and counter-clockwise if it is at the left.
-
-    Segments of the programme, with angles of the cam in rad or as "120 deg", and lifts in m, or in
-    rad for an oscillating follower:
-
-    * ``("rise", angle, lift, law)``
-    * ``("dwell", angle)``
-    * ``("return", angle, law)`` back to no lift, or ``("return", angle, drop, law)``
-
-    A law is "cycloidal", "harmonic", "modified_sine", "modified_trapezoid", "poly345", "poly4567"
-    or "linear"; ``{"type": "polynomial", "start": [speed, acceleration, …], "end": […]}``, the
-    polynomial of least degree with these derivatives by the angle at its ends, up to four; or
-    ``{"type": "spline", "points": [(angle, lift), …], "start": […], "end": […]}``, the quintic
-    spline through points, with angles from the beginning of the segment.
+    A translating follower moves upwards along x = ``offset``. The arm of an oscillating one reaches
+    over the cam: a lift turns it clockwise if the pivot is at the right, else counter-clockwise.
 
     Args:
         follower: "roller", "knife" or "flat".
-        programme: the segments; together a turn.
+        programme: segments ``("rise", angle, lift, law)``, ``("dwell", angle)``, and ``("return",
+            angle, law)`` or ``("return", angle, drop, law)``, together a turn. Angles of the cam,
+            rad or "120 deg"; lifts in m, or rad of an arm. ``Programme`` describes the laws.
         base_radius: radius of the cam at no lift, m.
         roller_radius: of a roller, m.
-        offset: of the line of travel to the right of the shaft, m. On the side that lowers the
-            pressure angle of the rise: to the right if the cam turns counter-clockwise.
+        offset: of the line of travel to the right of the shaft, m; there it lowers the pressure
+            angle of the rise if the cam turns counter-clockwise.
         arm: length from the pivot to the roller's centre, or of the bar with a flat face, m.
         pivot: place of the pivot, m.
         face: distance of a flat face of an oscillating follower from its pivot, towards the cam, m.
@@ -71,40 +60,41 @@ def cam(
         gravity: downwards, m/s².
 
     Raises:
-        ModelError: the programme does not close, the speed of the follower jumps, dimensions are
-            missing, contradictory or do not assemble.
-
-    Source: Norton, Cam Design and Manufacturing Handbook, 2nd edition, 2009, chapters 2 to 8.
+        ModelError: the programme does not close, the speed jumps, or dimensions do not assemble.
     """
-    one_of("follower", follower, ("roller", "knife", "flat"))
     one_of("closure", closure, ("force", "groove", "conjugate"))
     one_of("direction", direction, ("ccw", "cw"))
     lengths = {"base_radius": base_radius, "roller_radius": roller_radius, "offset": offset}
     found = {name: value(x, name, "m") for name, x in lengths.items()}
-    _dimensions(follower, closure, found, arm is None)
-    cw = direction == "cw"
-    far, place = _pivoted(arm, pivot)
-    sign = -1.0 if cw else 1.0
-    of = Follower(
-        follower,
-        found["base_radius"],
-        found["roller_radius"],
-        sign * found["offset"],
-        far,
-        complex(sign * place.real, place.imag),
-        value(face, "face", "m"),
-    )
-    if of.face and (follower != "flat" or far is None):
-        refuse("face", "only an oscillating flat follower has it; leave it out")
-    made = programme_of(programme, "m" if far is None else "rad")
+    of = _follower(follower, closure, found | {"face": value(face, "face", "m")}, arm, pivot)
+    cw, unit = direction == "cw", "m" if of.arm is None else "rad"
+    if cw:  # the mirror image
+        of = replace(of, offset=-of.offset, pivot=-of.pivot.conjugate())
+    made = programme_of(programme, unit)
     of.check(made.size)
-    drive = _drive(speed, mass, spring, gravity, far is None)
-    result = Cam(made, of, cw, closure, drive)
+    result = Cam(made, of, cw, closure, _drive(speed, mass, spring, gravity, unit == "m"))
     result.at(np.zeros(1))
     return result
 
 
-def _dimensions(follower: str, closure: str, of: dict[str, float], translating: bool) -> None:
+def _follower(
+    kind: str,
+    closure: str,
+    of: Mapping[str, float],
+    arm: Number | None,
+    pivot: Sequence[Number] | None,
+) -> Follower:
+    """The follower with its dimensions."""
+    one_of("follower", kind, ("roller", "knife", "flat"))
+    _dimensions(kind, closure, of, arm is None)
+    far, place = _pivoted(arm, pivot)
+    if of["face"] and (kind != "flat" or far is None):
+        refuse("face", "only an oscillating flat follower has it; leave it out")
+    sizes = of["base_radius"], of["roller_radius"], of["offset"]
+    return Follower(kind, *sizes, far, place, of["face"])
+
+
+def _dimensions(follower: str, closure: str, of: Mapping[str, float], translating: bool) -> None:
     """Refuse radii and offsets that do not belong to the follower."""
     if not 0.0 < of["base_radius"] < np.inf:
         refuse("base_radius", f"{of['base_radius']:g} m; must be > 0")
