@@ -101,6 +101,24 @@ def test_the_lift_off_speed_is_that_of_the_spring(size: float) -> None:
     assert cam.lift_off_speed == pytest.approx(lift_off(0.25, spring, 0.01 * size), rel=1e-6)
 
 
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("direction", ["ccw", "cw"])
+def test_the_lift_off_speed_of_a_bar_is_that_of_its_spring(size: float, direction: str) -> None:
+    """m L²/3 ω² s'' + k s + T - m g L/2 cos θ = 0; a lift turns the bar clockwise."""
+    spring = (10.0 * size, 3.0 * size)
+    cam = oscillating(size=size, mass=0.3, spring=spring, direction=direction)
+    arm, prime, pivot = 0.07, 0.038, complex(0.08, 0.01)
+    start = np.arccos((abs(pivot) ** 2 + arm**2 - prime**2) / (2 * abs(pivot) * arm))
+    angle = np.linspace(0.0, 2 * np.pi, 2_000_001)
+    s, a = (lift_of(angle, np.radians(15), order) for order in (0, 2))
+    theta = np.angle(-pivot) - start - s
+    press = spring[0] * s + spring[1] - 0.3 * 9.81 * arm * size / 2 * np.cos(theta)
+    slowed = a < -1e-9
+    inertia = 0.3 * (arm * size) ** 2 / 3
+    wanted = np.sqrt((press[slowed] / (-a[slowed] * inertia)).min())
+    assert cam.lift_off_speed == pytest.approx(wanted, rel=1e-6)
+
+
 @pytest.mark.parametrize("kind", some(["translating", "oscillating"], 1))
 def test_the_normal_force_falls_to_zero_at_the_lift_off_speed(kind: str) -> None:
     cam = translating(mass=0.25, spring=(1500, 30))
