@@ -70,6 +70,38 @@ def test_an_oscillating_roller(size: float, pivot: tuple[float, float]) -> None:
         assert own.radius[0] == pytest.approx(1 / curvature - 0.008 * size, rel=1e-5)
 
 
+def test_the_contact_wanders_along_a_flat_face() -> None:
+    """By s' from the guide; on a rocker at the right by D cos ψ/(1 + ψ') from the pivot."""
+    v = lift_of(translating("flat").angle, 0.01, 1)
+    assert translating("flat").contact == pytest.approx(v, abs=1e-15)
+    assert translating("flat", direction="cw").contact == pytest.approx(-v, abs=1e-15)
+    moved = translating("flat", offset=0.004)
+    assert moved.contact == pytest.approx(v - 0.004, abs=1e-15)
+    rocker = oscillating("flat", direction="ccw")
+    far, turn = np.hypot(0.08, 0.01), lift_of(rocker.angle, np.radians(15))
+    psi = np.arcsin(0.06 / far) + turn
+    along = far * np.cos(psi) / (1 + lift_of(rocker.angle, np.radians(15), 1))
+    assert rocker.contact == pytest.approx(along, rel=1e-12)
+    with pytest.raises(kp.ModelError, match="follower='flat'"):
+        _ = translating().contact
+
+
+def test_doubtful_sizes_are_remarks_whose_remedies_work() -> None:
+    large = translating(base_radius=0.03, roller_radius=0.035)
+    assert any("roller of 0.035 m is larger than the base" in text for text in large.remarks)
+    assert translating(base_radius=0.036, roller_radius=0.035).remarks == ()
+    short = oscillating("flat", arm=0.05)
+    (told,) = short.remarks
+    needed = float(told.split("up to ")[1].split()[0])
+    assert needed == pytest.approx(short.contact.max(), rel=1e-3)
+    assert oscillating("flat", arm=needed * 1.001).remarks == ()
+    steep = translating(base_radius=0.005)
+    assert "take a larger base radius" in steep.remarks[0]
+    base = steep.least_base_radius("30 deg")
+    larger = translating(base_radius=base * 1.0001).remarks
+    assert not any("pressure" in text for text in larger)
+
+
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("make", [translating, oscillating])
 def test_a_flat_profile_is_the_envelope_of_its_faces(make: object, size: float) -> None:

@@ -153,6 +153,25 @@ class CamCurves:
         with np.errstate(divide="ignore"):
             return fixed(1.0 / self.shape.radius)
 
+    @property
+    def contact(self) -> Floats:
+        """Place of the contact on a flat face, m, (n,): how wide the face must be.
+
+        It is measured along the face, from the line of travel to the right, or from the pivot.
+
+        Raises:
+            ModelError: the follower has no flat face.
+        """
+        of = self.follower
+        if of.kind != "flat":
+            raise ModelError("the follower has no flat face", hint="give follower='flat'")
+        side = -1.0 if self.clockwise else 1.0
+        at = self.shape.profile * np.exp(1j * side * self.angle)
+        if of.arm is None:
+            return fixed(at.real - side * of.offset)
+        far = np.abs(at - complex(side * of.pivot.real, of.pivot.imag))
+        return fixed(np.sqrt(np.maximum(far**2 - of.face**2, 0.0)))
+
     @cached_property
     def largest_pressure_angle(self) -> float:
         """The largest magnitude of the pressure angle, rad, of both cams if there are two."""
@@ -184,10 +203,11 @@ class CamCurves:
         angle, rows = self.programme.sampled()
         values = of(self._shape(angle, rows, second=second))
         k = int(np.argmin(values))
+        near = 1e-9 * float(np.abs(rows[2]).max())
         piece = next(
             one
             for one in self.programme.pieces
-            if one.start <= angle[k] <= one.end and np.isclose(one.at(angle[k], 2), rows[2, k])
+            if one.start <= angle[k] <= one.end and abs(one.at(angle[k], 2) - rows[2, k]) <= near
         )
         low, high = angle[max(k - 1, 0)], angle[min(k + 1, len(angle) - 1)]
         low, high = max(float(low), piece.start), min(float(high), piece.end)

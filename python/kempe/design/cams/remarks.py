@@ -24,6 +24,13 @@ def remarks_of(cam: CamCurves) -> Iterator[str]:
         told = f"pressure angle up to {np.degrees(cam.largest_pressure_angle):.3g}°, recommended "
         told += f"at most {np.degrees(steep):.3g}°"
         yield f"{told}: take a larger base radius, see least_base_radius"
+    of = cam.follower
+    if of.roller > of.base:
+        told = f"the roller of {of.roller:g} m is larger than the base circle of {of.base:g} m"
+        yield f"{told}: take a smaller roller_radius or a larger base_radius"
+    if of.kind == "flat" and of.arm is not None and cam.contact.max() > of.arm:
+        told = f"the face touches up to {cam.contact.max():.4g} m from the pivot"
+        yield f"{told}, beyond its arm of {of.arm:g} m: lengthen the arm"
     for angle, jump in cam.programme.jumps:
         told = f"the acceleration jumps by {jump:.4g} {cam.programme.unit}/rad² at "
         yield f"{told}{np.degrees(angle):.4g}°: a law such as 'cycloidal' or 'poly345' has no jump"
