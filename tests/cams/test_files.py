@@ -11,6 +11,7 @@ import pytest
 from cams.machines import SIZES, lift_of, oscillating, programme, translating
 from command_line import kempe
 from kempe import plot
+from plot.overlaps import cut_off, overlaps
 from sizes import FULL
 
 LIFT = "segment, angle [deg], lift [mm], law\nrise, 100, 10, cycloidal\ndwell, 40\n"
@@ -148,6 +149,14 @@ def test_the_command_writes_case_drawing_table_and_figure(tmp_path: Path) -> Non
     assert "lift-off speed" in undercut.stdout
     assert "undercut" in undercut.stdout
     assert "base_radius of at least" in undercut.stdout
+
+
+def test_no_text_of_the_figure_covers_another_or_leaves_the_paper() -> None:
+    undercut = translating("flat", base_radius=0.004)
+    for cam in (translating(closure="groove"), undercut, oscillating(closure="conjugate")):
+        figure = plot.cam(cam)
+        assert overlaps(figure) == []
+        assert cut_off(figure) == []
 
 
 def test_a_figure_of_something_else_is_refused() -> None:

@@ -43,7 +43,7 @@ def cam(
         follower: "roller", "knife" or "flat".
         programme: segments ``("rise", angle, lift, law)``, ``("dwell", angle)``, and ``("return",
             angle, law)`` or ``("return", angle, drop, law)``, together a turn. Angles of the cam,
-            rad or "120 deg"; lifts in m, or rad of an arm. ``Programme`` describes the laws.
+            rad or "120 deg"; lifts in m, or rad of an arm. ``cams.Programme`` has laws.
         base_radius: radius of the cam at no lift, m.
         roller_radius: of a roller, m.
         offset: of the line of travel to the right of the shaft, m; there it lowers the pressure
