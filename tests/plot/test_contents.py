@@ -77,6 +77,20 @@ def of_slide(_: Any) -> list[Figure]:
     return [figure_of(draw(sol, "winch")) for draw in (plot.effort, plot.torque_speed)]
 
 
+def of_cams(_: Any) -> list[Figure]:
+    """A roller with an offset, undercut flat faces, and conjugate cams of a rocker."""
+    lift = [("rise", "60 deg", 0.02, "cycloidal"), ("return", "80 deg", "harmonic")]
+    pair = [("rise", "100 deg", "15 deg", "modified_trapezoid"), ("return", "120 deg", "poly345")]
+    rest = [("dwell", "220 deg")], [("dwell", "140 deg")]
+    rocker = {"arm": 0.07, "pivot": (0.08, 0.01), "closure": "conjugate"}
+    made = kp.design.cam
+    return [
+        plot.cam(made("roller", lift + rest[0], base_radius=0.06, roller_radius=0.01, offset=0.01)),
+        plot.cam(made("flat", lift + rest[0], base_radius=0.03, direction="cw")),
+        plot.cam(made("roller", pair + rest[1], base_radius=0.03, roller_radius=0.012, **rocker)),
+    ]
+
+
 SWEEPS: dict[str, Callable[[Any], list[Figure]]] = {
     "lines": of_axes("grid", lambda of: plot.sweep_lines(of, "pin.max")),
     "map": of_axes("grid", lambda of: plot.sweep_map(of, "pin.max")),
@@ -98,6 +112,7 @@ DRAWN: dict[str, Callable[[Any], list[Figure]]] = {
     **RESULTS,
     "pages of a design": of_design,
     "drive of a slide": of_slide,
+    "cams": of_cams,
     "pages of the flagship": of_pages("flagship"),
     "pages of the slider-crank": of_pages("crank"),
 }

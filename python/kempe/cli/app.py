@@ -15,6 +15,8 @@ from kempe._version import __version__
 from kempe.cli import exit_codes
 from kempe.cli.animate import EXAMPLES as ANIMATE_EXAMPLES
 from kempe.cli.animate import animate as animate_command
+from kempe.cli.cam import EXAMPLES as CAM_EXAMPLES
+from kempe.cli.cam import cam as cam_command
 from kempe.cli.check import EXAMPLES as CHECK_EXAMPLES
 from kempe.cli.check import check as check_command
 from kempe.cli.convert import EXAMPLES as CONVERT_EXAMPLES
@@ -81,6 +83,7 @@ app.command("gradient", epilog=GRADIENT_EXAMPLES)(gradient_command)
 app.command("optimize", epilog=OPTIMIZE_EXAMPLES)(optimize_command)
 app.command("fit", epilog=FIT_EXAMPLES)(fit_command)
 app.command("synthesis", epilog=SYNTHESIS_EXAMPLES)(synthesis_command)
+app.command("cam", epilog=CAM_EXAMPLES)(cam_command)
 app.command("studio", epilog=STUDIO_EXAMPLES)(studio_command)
 app.command("convert", epilog=CONVERT_EXAMPLES)(convert_command)
 app.command("new", epilog=NEW_EXAMPLES)(new_command)

@@ -18,6 +18,8 @@ Dynamics:
 
 Making:
     balance                 counterweights for the shaking force
+    cam                     profile of a cam for a programme of its follower
+    read_programme          the programme in a CSV file
     gear_train              tooth numbers for a ratio
 
 Pin loads:
@@ -29,6 +31,7 @@ Pin loads:
 
 from kempe.base.arguments import explain_functions
 from kempe.design.balance import Balance, Counterweight, balance
+from kempe.design.cams import Cam, cam, read_programme
 from kempe.design.centres import InstantCentre, instant_centre
 from kempe.design.coupler_curve import CouplerCurve, coupler_curve
 from kempe.design.duty import Duty, Flywheel, duty, flywheel
@@ -58,6 +61,7 @@ from kempe.design.wrenches import Inertia, Load
 
 __all__ = [
     "Balance",
+    "Cam",
     "Counterweight",
     "CouplerCurve",
     "Duty",
@@ -76,6 +80,7 @@ __all__ = [
     "TransmissionAngle",
     "acceleration_polygon",
     "balance",
+    "cam",
     "coupler_curve",
     "duty",
     "export_load_cases",
@@ -88,6 +93,7 @@ __all__ = [
     "pin_load",
     "pin_loads",
     "pin_table",
+    "read_programme",
     "shaking",
     "toggles",
     "transmission_angle",

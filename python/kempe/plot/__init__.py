@@ -6,6 +6,7 @@ axes are compressed after ``cut=``; ``transient(solution)`` returns a suitable t
 
 from kempe.base.arguments import explain_functions
 from kempe.plot.body_motion import accelerations, positions, velocities
+from kempe.plot.cam import cam
 from kempe.plot.centres import instant_centres
 from kempe.plot.comparisons import comparison
 from kempe.plot.configuration import configuration
@@ -42,6 +43,7 @@ __all__ = [
     "accelerations",
     "all_reactions",
     "burmester",
+    "cam",
     "comparison",
     "configuration",
     "coupler_curve",

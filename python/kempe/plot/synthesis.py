@@ -10,6 +10,7 @@ import numpy as np
 from kempe.base.arrays import Floats
 from kempe.draw.units import scale
 from kempe.errors import ModelError
+from kempe.model.given import value
 from kempe.model.values import instance
 from kempe.plot import style
 from kempe.plot.page import Page
@@ -118,8 +119,6 @@ def _task(axes: Axes, found: Found, divisor: float) -> None:
 
 
 def _frames(axes: Axes, at: Floats, angles: Sequence[Any]) -> None:
-    from kempe.synthesis.tasks import value
-
     size = _AXIS * np.ptp(at, axis=0).max()
     for place, angle in zip(at, angles, strict=True):
         turned = value(angle, "angle", "rad")

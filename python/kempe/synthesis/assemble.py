@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
+from kempe.model.given import value
 from kempe.model.values import Number, refuse
 from kempe.synthesis import tasks
 from kempe.synthesis.candidate import TYPES, Candidate, masses_of, unwrapped
@@ -87,7 +88,7 @@ def limits(
             refuse("within", "must be [(x_min, x_max), (y_min, y_max)]")
     return Limits(
         defects == "tell",
-        None if least is None else tasks.value(least, "transmission_angle", "rad"),
+        None if least is None else value(least, "transmission_angle", "rad"),
         grashof or None,
         box,
         _DIRECTIONS[direction],

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kempe.base.arrays import Floats, fixed
+from kempe.model.given import value
 from kempe.model.model import Model
 from kempe.model.values import refuse
-from kempe.synthesis.tasks import Complexes, value
+from kempe.synthesis.tasks import Complexes
 
 if TYPE_CHECKING:
     from kempe.case import Case

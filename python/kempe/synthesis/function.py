@@ -11,6 +11,7 @@ from kempe import _core
 from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.errors import ModelError
+from kempe.model.given import value
 from kempe.model.values import Number, refuse
 from kempe.synthesis import assemble, tasks
 from kempe.synthesis.assemble import Bars
@@ -65,7 +66,7 @@ def function(
         ModelError: no four-bar couples the angles, or an argument is invalid.
     """
     assemble.families(family)
-    asked, length = assemble.limits(**limits), tasks.value(ground, "ground", "m")
+    asked, length = assemble.limits(**limits), value(ground, "ground", "m")
     for name, given in (("scales", scales), ("offsets", offsets)):
         if given not in ("fixed", "free", None):
             refuse(name, f"{given!r}; must be 'fixed' or 'free'")

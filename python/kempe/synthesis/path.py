@@ -12,6 +12,7 @@ import numpy as np
 from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.errors import ModelError
+from kempe.model.given import value
 from kempe.model.values import Number, refuse
 from kempe.synthesis import assemble, tasks
 from kempe.synthesis.assemble import Bars
@@ -90,7 +91,7 @@ def path(
 
 
 def _angles(given: Sequence[Number], n: int) -> Floats:
-    found = np.array([tasks.value(x, f"angles[{k}]", "rad") for k, x in enumerate(given, 1)])
+    found = np.array([value(x, f"angles[{k}]", "rad") for k, x in enumerate(given, 1)])
     if len(found) != n:
         refuse("angles", f"{len(found)} for {n} points; one for each point")
     at = tasks.turns(found)

@@ -8,11 +8,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from kempe import _core
 from kempe.base.arrays import Floats
-from kempe.errors import KempeError
+from kempe.model.given import value
 from kempe.model.values import Number, refuse
-from kempe.model.values import number as checked
 
 Complexes: TypeAlias = NDArray[np.complex128]
 #: x and y, m, and the angle of the moving frame, rad; or texts such as "30 deg".
@@ -20,26 +18,6 @@ Pose: TypeAlias = Sequence[Number]
 
 #: Two places, or angles, that differ by less, relative to the size of the task, are the same.
 SAME = 1e-9
-
-
-def value(given: Any, path: str, unit: str) -> float:
-    """A number or the text of a formula without names, in SI units and rad.
-
-    Raises:
-        ModelError: it is not a number, or its unit is not this one; "" allows any unit.
-    """
-    found = checked(given, path)
-    if not isinstance(found, str):
-        return float(found)
-    try:
-        own = _core.formula_unit(found, [], [])
-        result = float(_core.formula_value(found, [], [])[0])
-    except KempeError as error:
-        refuse(path, f"{given!r}: {error.args[0]}")
-    if unit and own not in ("", unit):
-        what = "an angle, such as '30 deg'" if unit == "rad" else f"in {unit}"
-        refuse(path, f"{given!r} is in {own}; must be {what}")
-    return result
 
 
 def rows(given: Any, path: str, units: Sequence[str], example: str) -> Floats:
