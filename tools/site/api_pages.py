@@ -56,6 +56,7 @@ PAGES = {
             "kempe.dynamics",
             "kempe.Stepper",
             "kempe.SavedStep",
+            "kempe.export_fmu",
             "kempe.kinematics",
             "kempe.inverse_dynamics",
             "kempe.equilibrium",
