@@ -47,6 +47,7 @@ class Host:
             own.freeMemory = defaultCallbacks.freeMemory
             self.fmu.instantiate(callbacks=own)
         else:
+
             def note(_1: Any, _status: int, _category: bytes, text: bytes) -> None:
                 self.messages.append(text.decode())
 
@@ -88,7 +89,7 @@ class Host:
         return bytes(self.fmu.serializeFMUState(state))
 
     def read(self, data: bytes) -> Any:
-        return self.fmu.deSerializeFMUState(data) if self.is_2 else self.fmu.deserializeFMUState(data)
+        return self.fmu.deserializeFMUState(data)
 
     def reset(self) -> None:
         self.fmu.reset()
@@ -108,4 +109,3 @@ def hosts(
     finally:
         for host in made:
             host.close()
-

@@ -81,7 +81,7 @@ def convert(  # noqa: PLR0917 - typer distinguishes options by their annotations
         if chosen == "dxf":
             write_dxf(case.start(), output)
         else:
-            export_fmu(case, output, inputs or (), outputs, fmi or "2.0", analysis)
+            export_fmu(case, output, inputs or (), outputs, version=fmi or "2.0", analysis=analysis)
         unread = case.unread
     else:
         unread = convert_file(file, output, form, to, partial=partial)

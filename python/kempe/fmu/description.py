@@ -42,6 +42,7 @@ class Variable:
 
     @property
     def variability(self) -> str:
+        """When the value may change."""
         return "fixed" if self.causality == "parameter" else "continuous"
 
     @property

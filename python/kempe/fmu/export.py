@@ -42,6 +42,7 @@ def export_fmu(
     path: Path | str,
     inputs: Sequence[str] = (),
     outputs: Sequence[str] | None = None,
+    *,
     version: str = "2.0",
     analysis: str | Dynamics | None = None,
 ) -> None:
