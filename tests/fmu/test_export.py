@@ -148,6 +148,8 @@ def test_without_sources_and_library_the_remedy_is_a_wheel(
     (tmp_path / "_fmu").mkdir()
     name = f"libkempe_fmu{library.ending()}"
     (tmp_path / "_fmu" / name).write_bytes(b"a library")
+    for name in ("LICENSE-MIT", "THIRD_PARTY_NOTICES.txt"):
+        (tmp_path / "_fmu" / name).write_bytes(name.encode())
     monkeypatch.setattr(library, "IN_WHEEL", tmp_path / "_fmu")
     kp.export_fmu(ball(), tmp_path / "ball.fmu")
     with zipfile.ZipFile(tmp_path / "ball.fmu") as pack:

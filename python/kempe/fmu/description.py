@@ -73,19 +73,20 @@ class Description:
         """The text for a version of the standard, 2.0 or 3.0."""
         root = _of_3(self) if version == "3.0" else _of_2(self)
         ET.indent(root)
-        return ET.tostring(root, encoding="UTF-8", xml_declaration=True)
+        text: bytes = ET.tostring(root, encoding="UTF-8", xml_declaration=True)
+        return text
 
 
 def _head(of: Description, version: str, token: str) -> ET.Element:
     structured = all(_STRUCTURED.fullmatch(v.name) for v in of.variables)
-    return ET.Element(
-        "fmiModelDescription",
-        fmiVersion=version,
-        modelName=of.title,
-        **{token: of.token},
-        generationTool=f"kempe {__version__}",
-        variableNamingConvention="structured" if structured else "flat",
-    )
+    attributes = {
+        "fmiVersion": version,
+        "modelName": of.title,
+        token: of.token,
+        "generationTool": f"kempe {__version__}",
+        "variableNamingConvention": "structured" if structured else "flat",
+    }
+    return ET.Element("fmiModelDescription", attributes)
 
 
 def _common(of: Description, root: ET.Element) -> None:

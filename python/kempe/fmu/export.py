@@ -20,7 +20,7 @@ from kempe.base.names import one_of
 from kempe.case import Case
 from kempe.errors import FileError, ModelError
 from kempe.fmu.description import TIME, Description, Variable
-from kempe.fmu.library import ending, folder, library
+from kempe.fmu.library import ending, folder, library, licences
 from kempe.model.compiled import CompiledModel
 from kempe.model.measure_infos import measure_info, parameter_unit
 from kempe.model.model import Model
@@ -96,6 +96,7 @@ def export_fmu(
         "modelDescription.xml": description.xml(version),
         "resources/case.toml": text.encode(),
         "resources/interface.json": json.dumps(interface, indent=1).encode(),
+        "documentation/licenses/license.txt": licences(),
         f"binaries/{folder(version)}/{identifier}{ending()}": library(),
     }
     with files.writing(target) as file, zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as pack:

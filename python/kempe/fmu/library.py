@@ -39,6 +39,22 @@ def folder(version: str) -> str:
     return _OF_2.get(name, name) if version == "2.0" else name
 
 
+def licences() -> bytes:
+    """The licences of the library.
+
+    Raises:
+        FileError: the files are missing.
+    """
+    found = []
+    for name in ("LICENSE-MIT", "THIRD_PARTY_NOTICES.txt"):
+        path = IN_WHEEL / name if IN_WHEEL.is_dir() else ROOT / name
+        try:
+            found.append(path.read_bytes())
+        except OSError as error:
+            raise FileError(f"cannot read {path}: {error.strerror}", name=str(path)) from error
+    return b"\n".join(found)
+
+
 def library() -> bytes:
     """The library for this system.
 
