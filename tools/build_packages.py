@@ -3,8 +3,9 @@
     .venv/bin/pip install --require-hashes -r tools/lock/packages.txt
     .venv/bin/python tools/build_packages.py
 
-The packages are written to dist/. A wheel for x86-64 contains the core twice (kempe/_processor.py). A wheel contains the library inside
-FMUs. Both contain the page of the studio that the repository carries.
+The packages are written to dist/. A wheel for x86-64 contains the core twice
+(kempe/_processor.py), and each wheel the library inside FMUs. Wheel and source distribution
+contain the page of the studio that the repository carries.
 On Linux, Zig links against an old glibc, so that the wheel runs on old systems too.
 """
 

@@ -11,7 +11,7 @@ use std::path::Path;
 pub enum Phase {
     /// Before initialization.
     Instantiated,
-    /// Between the begin and the end of initialization.
+    /// Between the start and the end of initialization.
     Initialization,
     /// Steps are possible.
     Step,
@@ -240,7 +240,7 @@ impl Instance {
         }
     }
 
-    /// Chooses a value for the assembly. The value of the case is no choice: it may be a formula of other parameters.
+    /// Chooses a value for the assembly. The value of the case is left out: it may be a formula of other parameters.
     fn choose(&mut self, place: usize, value: f64) {
         let default = self.exported.defaults[place];
         let known = self.chosen.iter().position(|(of, _)| *of == place);

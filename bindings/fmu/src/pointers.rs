@@ -137,7 +137,7 @@ unsafe fn snapshot<'a>(state: *mut c_void) -> Result<&'a Snapshot, String> {
     unsafe { state.cast::<Snapshot>().as_ref() }.ok_or_else(|| "the state is null".to_string())
 }
 
-/// Puts a state where the host wants it. A state that is there already is replaced.
+/// Puts a state at a place of the host. A state that is there already is replaced.
 ///
 /// # Safety
 /// `to` is valid, and its state is null or from this library.

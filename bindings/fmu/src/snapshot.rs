@@ -15,7 +15,7 @@ pub struct Snapshot {
     /// Inputs that the next step will have.
     pub pending: Vec<(usize, f64)>,
     pub tolerance: Option<f64>,
-    /// Whether the host knows the doubts about the accuracy.
+    /// Whether the log contains a doubt about the accuracy already.
     pub doubted: bool,
     pub run: Option<SavedRun>,
     /// Whether it was read from bytes.

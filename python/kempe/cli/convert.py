@@ -25,6 +25,29 @@ EXAMPLES = """Examples:
   kempe convert motor_press.toml press.fmu --input stall --output ram.y --fmi 3.0
 """
 
+#: Options of FMUs.
+Inputs = Annotated[
+    list[str] | None,
+    typer.Option("--input", metavar="NAME", help="FMU: a parameter that changes in steps."),
+]
+Outputs = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--output",
+        metavar="NAME",
+        help="FMU: a quantity or measure; by default coordinates, rates and all measures.",
+    ),
+]
+Version = Annotated[
+    str | None, typer.Option("--fmi", metavar="VERSION", help="FMU: 2.0 (default) or 3.0.")
+]
+AnalysisName = Annotated[
+    str | None,
+    typer.Option(
+        "--analysis", metavar="NAME", help="FMU: its analysis; by default the first dynamics."
+    ),
+]
+
 
 def convert(  # noqa: PLR0917 - typer distinguishes options by their annotations
     file: Annotated[Path, typer.Argument(metavar="IN", help="The file to read.")],
@@ -43,27 +66,10 @@ def convert(  # noqa: PLR0917 - typer distinguishes options by their annotations
     force: Annotated[
         bool, typer.Option("--force", "-f", help="Overwrite an existing file.")
     ] = False,
-    inputs: Annotated[
-        list[str] | None,
-        typer.Option("--input", metavar="NAME", help="FMU: a parameter that changes in steps."),
-    ] = None,
-    outputs: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--output",
-            metavar="NAME",
-            help="FMU: a quantity or measure; by default coordinates, rates and all measures.",
-        ),
-    ] = None,
-    fmi: Annotated[
-        str | None, typer.Option("--fmi", metavar="VERSION", help="FMU: 2.0 (default) or 3.0.")
-    ] = None,
-    analysis: Annotated[
-        str | None,
-        typer.Option(
-            "--analysis", metavar="NAME", help="FMU: its analysis; by default the first dynamics."
-        ),
-    ] = None,
+    inputs: Inputs = None,
+    outputs: Outputs = None,
+    fmi: Version = None,
+    analysis: AnalysisName = None,
 ) -> None:
     """Convert a file of another tool to a case of kempe, or a case to another format."""
     from kempe.loading import convert as convert_file

@@ -73,38 +73,47 @@ def export_fmu(
     if target.suffix.lower() != ".fmu":
         raise FileError(f"cannot write {path}: its name must end with .fmu", name=str(path))
     case = Case(case) if isinstance(case, Model) else case
-    stepper = Stepper(case, analysis)
-    whole, name = _with_analysis(case, analysis)
-    model = stepper._model
-    chosen = _default_outputs(model) if outputs is None else _listed("outputs", outputs)
-    given = _listed("inputs", inputs)
-    variables, interface = _variables(stepper, given, chosen)
-    text = _text(whole)
-    interface |= {"analysis": name}
-    token = hashlib.sha256(f"{text}{json.dumps(interface)}".encode()).hexdigest()
-    identifier = re.sub(r"\W", "_", target.stem, flags=re.ASCII)
-    identifier = identifier if identifier[:1].isalpha() else f"m_{identifier}"
-    description = Description(
-        case.model.title or target.stem,
-        identifier,
-        f"{{{token[:32]}}}",
-        variables,
-        _experiment(whole.analyses[name], stepper.t),
-    )
-    interface |= {"token": description.token}
-    content = {
-        "modelDescription.xml": description.xml(version),
-        "resources/case.toml": text.encode(),
-        "resources/interface.json": json.dumps(interface, indent=1).encode(),
-        "documentation/licenses/license.txt": licences(),
-        f"binaries/{folder(version)}/{identifier}{ending()}": library(),
-    }
+    content = _content(case, target.stem, version, (inputs, outputs), analysis)
     with files.writing(target) as file, zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as pack:
         for place, data in content.items():
             entry = zipfile.ZipInfo(place, _EPOCH)
             entry.compress_type = zipfile.ZIP_DEFLATED
             entry.external_attr = 0o644 << 16
             pack.writestr(entry, data)
+
+
+def _content(
+    case: Case,
+    stem: str,
+    version: str,
+    asked: tuple[Sequence[str], Sequence[str] | None],
+    analysis: str | Dynamics | None,
+) -> dict[str, bytes]:
+    """The files in an FMU by their paths. ``asked`` are the inputs and outputs."""
+    inputs, outputs = asked
+    stepper = Stepper(case, analysis)
+    whole, name = _with_analysis(case, analysis)
+    names = _default_outputs(stepper._model) if outputs is None else _listed("outputs", outputs)
+    variables, interface = _variables(stepper, _listed("inputs", inputs), names)
+    text = _text(whole)
+    interface |= {"analysis": name}
+    token = hashlib.sha256(f"{text}{json.dumps(interface)}".encode()).hexdigest()
+    identifier = re.sub(r"\W", "_", stem, flags=re.ASCII)
+    description = Description(
+        case.model.title or stem,
+        identifier if identifier[:1].isalpha() else f"m_{identifier}",
+        f"{{{token[:32]}}}",
+        variables,
+        _experiment(whole.analyses[name], stepper.t),
+    )
+    interface |= {"token": description.token}
+    return {
+        "modelDescription.xml": description.xml(version),
+        "resources/case.toml": text.encode(),
+        "resources/interface.json": json.dumps(interface, indent=1).encode(),
+        "documentation/licenses/license.txt": licences(),
+        f"binaries/{folder(version)}/{description.identifier}{ending()}": library(),
+    }
 
 
 def _listed(what: str, names: Sequence[str]) -> list[str]:
