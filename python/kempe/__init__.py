@@ -57,6 +57,7 @@ Show:
     animate, player         videos and pages with the motion
     write_report            a report with data, equations, figures, as HTML or PDF
     write_dxf               plates of the links, positions and paths as a drawing
+    write_mjcf              a model of MuJoCo
     export_fmu              the case as a component of other simulation tools
     units                   units of tables, figures and CSV files
 
@@ -140,6 +141,7 @@ if TYPE_CHECKING:
     from kempe.fmu.export import export_fmu as export_fmu
     from kempe.lab_report import write_report as write_report
     from kempe.loading import load as load
+    from kempe.mjcf.writer import write_mjcf as write_mjcf
     from kempe.model.doubts import ModelWarning as ModelWarning
     from kempe.model.functions import Function as Function
     from kempe.model.functions import FunctionWarning as FunctionWarning
@@ -284,6 +286,7 @@ _HOME = {
     "tolerances": "sweeps",
     "units": "base.display_units",
     "write_dxf": "draw.dxf",
+    "write_mjcf": "mjcf.writer",
     "write_report": "lab_report",
 }
 

@@ -12,7 +12,7 @@ ROWS = (
     ("base",),
     ("foreign", "model"),
     ("results",),
-    ("analyses",),
+    ("analyses", "mjcf"),
     ("case",),
     ("loading",),
     ("design", "draw", "report", "stepping", "studio", "sweeps", "templates"),

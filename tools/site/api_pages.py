@@ -159,6 +159,7 @@ PAGES = {
             "kempe.scene",
             "kempe.write_report",
             "kempe.write_dxf",
+            "kempe.write_mjcf",
         ),
     ),
     "errors": ApiPage(

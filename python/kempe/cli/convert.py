@@ -22,6 +22,8 @@ EXAMPLES = """Examples:
 
   kempe convert four_bar.toml plates.dxf
 
+  kempe convert four_bar.toml four_bar.xml
+
   kempe convert motor_press.toml press.fmu --input stall --output ram.y --fmi 3.0
 """
 
@@ -77,15 +79,19 @@ def convert(  # noqa: PLR0917 - typer distinguishes options by their annotations
     if not force and (output.exists() or output.is_symlink()):
         raise FileError(f"{output} exists", name=str(output), hint="--force overwrites it")
     chosen = to or output.suffix.lower().removeprefix(".")
+    chosen = "mjcf" if chosen == "xml" else chosen
     _refuse_options(chosen, {"input": inputs, "output": outputs, "fmi": fmi, "analysis": analysis})
-    if chosen in ("dxf", "fmu"):
+    if chosen in ("dxf", "fmu", "mjcf"):
         from kempe.draw.dxf import write_dxf
         from kempe.fmu.export import export_fmu
         from kempe.loading import load
+        from kempe.mjcf.writer import write_mjcf
 
         case = load(file, partial=partial, form=form)
         if chosen == "dxf":
             write_dxf(case.start(), output)
+        elif chosen == "mjcf":
+            write_mjcf(case.start(), output)
         else:
             export_fmu(case, output, inputs or (), outputs, version=fmi or "2.0", analysis=analysis)
         unread = case.unread

@@ -111,8 +111,8 @@ def _content(
         "modelDescription.xml": description.xml(version),
         "resources/case.toml": text.encode(),
         "resources/interface.json": json.dumps(interface, indent=1).encode(),
-        "documentation/licenses/license.txt": licences(),
         f"binaries/{folder(version)}/{description.identifier}{ending()}": library(),
+        "documentation/licenses/license.txt": licences(),
     }
 
 

@@ -22,7 +22,7 @@ def constant(model: CompiledModel, place: str, law: Any) -> float:
     try:
         used, *_ = _core.measure(model.core, law)
         times = np.array([0.0, 0.7310585786300049])
-        values = [] if used else _core.measure_values(model.core, law, times, np.zeros((2, 0)))
+        values: Any = [] if used else _core.measure_values(model.core, law, times, np.zeros((2, 0)))
     except KempeError:
         values = []
     if len(values) == 0 or values[0] != values[1]:

@@ -1,4 +1,4 @@
-"""A spanning tree of the bodies: MuJoCo has bodies within bodies, and equations for the other joints."""
+"""A spanning tree: MuJoCo has bodies within bodies, and equations for the other joints."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from kempe.errors import ModelError
 from kempe.model.infos import ConstraintInfo
 
 GROUND = "ground"
-#: Joints that a tree can have, in the order in which they are taken: MuJoCo has no equation for the first.
+#: Joints of a tree in the order of choice: MuJoCo has no exact equation for a slide.
 TREE = ("translational", "weld", "revolute")
 
 

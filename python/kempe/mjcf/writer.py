@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -147,7 +147,7 @@ class _Writer:
         turns = body != GROUND and self.model.bodies[body].turns
         return float(self.state[f"{body}.omega"]) if turns else 0.0
 
-    def _turned(self, body: str, point: tuple[float, float]) -> tuple[float, float]:
+    def _turned(self, body: str, point: Sequence[float]) -> tuple[float, float]:
         """A point of a body in a frame that is parallel to the world."""
         c, s = math.cos(self._angle(body)), math.sin(self._angle(body))
         return c * point[0] - s * point[1], s * point[0] + c * point[1]
@@ -167,7 +167,7 @@ class _Writer:
         ET.SubElement(
             own,
             "inertial",
-            pos=_in_space(*self._turned(body, tuple(info.center))),
+            pos=_in_space(*self._turned(body, info.center)),
             mass=_texts(info.mass),
             diaginertia=_texts(inertia, inertia, inertia),
         )
@@ -195,7 +195,7 @@ class _Writer:
     def _carried(self, own: ET.Element, carrier: str, joint: ConstraintInfo, body: str) -> None:
         """The joint between a body and the one that carries it."""
         is_j = joint.bodies[1] == body
-        at = tuple(joint.point_j if is_j else joint.point_i)
+        at = joint.point_j if is_j else joint.point_i
         if joint.type == "revolute":
             place = _in_space(*self._turned(body, at))
             attributes = {"name": joint.name, "type": "hinge", "pos": place}
@@ -221,9 +221,9 @@ class _Writer:
     def _connect(self, equality: ET.Element, joint: ConstraintInfo) -> None:
         """A pin that closes a loop. Its first body moves."""
         one, other = joint.bodies
-        point = tuple(joint.point_i)
+        point = joint.point_i
         if one == GROUND:
-            one, other, point = other, one, tuple(joint.point_j)
+            one, other, point = other, one, joint.point_j
         attributes = {"name": joint.name, "body1": one}
         attributes |= {} if other == GROUND else {"body2": other}
         ET.SubElement(
@@ -285,7 +285,7 @@ class _Writer:
 
     def _relative_angle(self, tendons: ET.Element, force: ForceInfo) -> None:
         """The angle of body j relative to body i since the start, as a sum of joint angles."""
-        signs = {name: 1 for name in self.hinges[force.bodies[-1]]}
+        signs = dict.fromkeys(self.hinges[force.bodies[-1]], 1)
         for name in self.hinges[force.bodies[0]] if len(force.bodies) > 1 else ():
             signs[name] = signs.get(name, 0) - 1
         if not any(signs.values()):
@@ -303,7 +303,7 @@ class _Writer:
         spatial = ET.SubElement(tendons, "spatial", name=force.name)
         for end, body, point in zip(("i", "j"), force.bodies, force.points, strict=True):
             name = f"{force.name}.{end}"
-            at = _in_space(*self._turned(body, tuple(point)))
+            at = _in_space(*self._turned(body, point))
             owner = next((b for b in world.iter("body") if b.get("name") == body), world)
             ET.SubElement(owner, "site", name=name, pos=at)
             ET.SubElement(spatial, "site", site=name)
