@@ -156,7 +156,8 @@ impl Instance {
         let run = self.running()?;
         let t = run.t();
         // not the exact time: hosts sum the durations of their steps
-        if !((at - t).abs() <= 1e-9 * t.abs() + 1e-6 * duration.abs()) {
+        let off = (at - t).abs();
+        if off.is_nan() || off > 1e-9 * t.abs() + 1e-6 * duration.abs() {
             return Err(format!("a step from {at} s; the instance is at {t} s"));
         }
         run.advance(duration)?;
