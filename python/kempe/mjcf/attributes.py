@@ -1,4 +1,4 @@
-"""Attributes of elements with their defaults, and the list of what is not read."""
+"""Attributes of elements with their defaults, and the list of unread parts."""
 
 from __future__ import annotations
 

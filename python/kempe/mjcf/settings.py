@@ -22,7 +22,7 @@ _METHOD = (
 
 
 class Settings:
-    """The settings, and the list of what is not read."""
+    """The settings, and the list of unread parts."""
 
     def __init__(self, root: Node) -> None:
         self.root, self.unread = root, Unread()
