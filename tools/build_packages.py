@@ -3,8 +3,9 @@
     .venv/bin/pip install --require-hashes -r tools/lock/packages.txt
     .venv/bin/python tools/build_packages.py
 
-The packages are written to dist/. A wheel for x86-64 contains the core twice (kempe/_processor.py).
-Both contain the page of the studio that the repository carries.
+The packages are written to dist/. A wheel for x86-64 contains the core twice
+(kempe/_processor.py), and each wheel the library inside FMUs. Wheel and source distribution
+contain the page of the studio that the repository carries.
 On Linux, Zig links against an old glibc, so that the wheel runs on old systems too.
 """
 
@@ -26,6 +27,8 @@ EPOCH = "1767225600"  # 2026-01-01
 #: Without optimisation across crates. The results are the same; runs take several times as long.
 QUICK = {"LTO": "off", "CODEGEN_UNITS": "16", "OPT_LEVEL": "0"}
 V3 = "x86_64_v3"
+#: Endings of shared libraries.
+ENDINGS = (".so", ".dylib", ".dll")
 
 
 def main(words: list[str] | None = None) -> None:
@@ -54,10 +57,13 @@ def wheel(archive: Path, out: Path, target: str | None, quick: bool) -> Path:
     sources = unpacked(archive)
     processor = target.partition("-")[0] if target else platform.machine().lower()
     if processor not in ("x86_64", "amd64"):
-        return finished(compiled(sources, "plain", [], target, quick), [], out)
-    baseline = compiled(sources, "x86_64", ["-C", "target-cpu=x86-64"], target, quick)
+        plain = compiled(sources, "plain", [], target, quick)
+        return finished(plain, [], library(sources, "plain", [], target, quick), out)
+    flags = ["-C", "target-cpu=x86-64"]
+    baseline = compiled(sources, "x86_64", flags, target, quick)
     faster = compiled(sources, V3, ["-C", "target-cpu=x86-64-v3"], target, quick)
-    return finished(baseline, [faster], out)
+    # FMUs go to other machines, so that they contain the one for every processor
+    return finished(baseline, [faster], library(sources, "x86_64", flags, target, quick), out)
 
 
 def unpacked(archive: Path) -> Path:
@@ -74,6 +80,56 @@ def compiled(sources: Path, name: str, flags: list[str], target: str | None, qui
     """Compile a wheel with flags of rustc; no path of this machine enters it."""
     made = WORK / name
     shutil.rmtree(made, ignore_errors=True)
+    environment = variables(name, flags, quick)
+    words = ["build", "--release", "--locked", "--strip", "--out", str(made)]
+    if sys.platform == "linux":
+        words += ["--zig", "--compatibility", GLIBC]
+    if target:
+        words += ["--target", target]
+    run("maturin", *words, cwd=sources, environment=environment)
+    return only(made, "*.whl")
+
+
+def library(sources: Path, name: str, flags: list[str], target: str | None, quick: bool) -> Path:
+    """Compile the library inside FMUs with the same flags; on Linux also against an old glibc."""
+    environment = variables(name, flags, quick)
+    chosen = target or run("rustc", "--print", "host-tuple", module=False).strip()
+    if sys.platform == "linux":
+        linker = f"CARGO_TARGET_{chosen.upper().replace('-', '_')}_LINKER"
+        environment[linker] = str(zig_linker(chosen))
+    words = ["rustc", "--release", "--locked", "--package", "kempe-fmu", "--target", chosen]
+    run(
+        "cargo",
+        *words,
+        "--",
+        "-C",
+        "strip=symbols",
+        cwd=sources,
+        environment=environment,
+        module=False,
+    )
+    folder = Path(environment["CARGO_TARGET_DIR"], chosen, "release")
+    return next(path for path in folder.glob("*kempe_fmu.*") if path.suffix in ENDINGS)
+
+
+def zig_linker(target: str) -> Path:
+    """A linker for cargo: Zig with an old glibc, which has the unwinder in a library of its own."""
+    processor = target.partition("-")[0]
+    system = f"{processor}-linux-gnu.{GLIBC.removeprefix('manylinux_').replace('_', '.')}"
+    path = WORK / f"zig-{processor}"
+    path.write_text(
+        f"#!{sys.executable}\n"
+        "import os, sys\n"
+        "words = ['-lunwind' if word == '-lgcc_s' else word for word in sys.argv[1:]]\n"
+        f"command = [sys.executable, '-m', 'ziglang', 'cc', '-target', {system!r}, *words]\n"
+        "os.execv(sys.executable, command)\n"
+    )
+    path.chmod(0o755)
+    return path
+
+
+def variables(name: str, flags: list[str], quick: bool) -> dict[str, str]:
+    """The variables of cargo for a set of flags of rustc."""
     cargo_home = os.environ.get("CARGO_HOME", str(Path.home() / ".cargo"))
     flags = [
         *flags,
@@ -85,17 +141,11 @@ def compiled(sources: Path, name: str, flags: list[str], target: str | None, qui
     environment["PYO3_PYTHON"] = environment["CARGO_ZIGBUILD_PYTHON_PATH"] = sys.executable
     if quick:
         environment |= {f"CARGO_PROFILE_RELEASE_{key}": value for key, value in QUICK.items()}
-    words = ["build", "--release", "--locked", "--strip", "--out", str(made)]
-    if sys.platform == "linux":
-        words += ["--zig", "--compatibility", GLIBC]
-    if target:
-        words += ["--target", target]
-    run("maturin", *words, cwd=sources, environment=environment)
-    return only(made, "*.whl")
+    return environment
 
 
-def finished(path: Path, faster: list[Path], out: Path) -> Path:
-    """Add the second core and the licences of Rust's library; pack it again."""
+def finished(path: Path, faster: list[Path], library: Path, out: Path) -> Path:
+    """Add the second core, the library inside FMUs and the licences of Rust's; pack it again."""
     folder = WORK / "unpacked"
     shutil.rmtree(folder, ignore_errors=True)
     run("wheel", "unpack", str(path), "--dest", str(folder / "wheel"))
@@ -105,6 +155,10 @@ def finished(path: Path, faster: list[Path], out: Path) -> Path:
         core = only(only(folder / "other", "*") / "kempe", "_core.*[od]")  # .so or .pyd
         (inside / "kempe" / f"_{V3}").mkdir()
         shutil.copy2(core, inside / "kempe" / f"_{V3}" / core.name)
+    (inside / "kempe" / "_fmu").mkdir()
+    shutil.copy2(library, inside / "kempe" / "_fmu" / library.name)
+    for name in ("LICENSE-MIT", "THIRD_PARTY_NOTICES.txt"):
+        shutil.copy2(ROOT / name, inside / "kempe" / "_fmu" / name)
     information = only(inside, "*.dist-info")
     add_licences_of_rust(information / "licenses")
     for parts in information.glob("sboms/*.json"):  # maturin's list of crates, with their folders

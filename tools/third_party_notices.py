@@ -2,10 +2,10 @@
 
     .venv/bin/python tools/third_party_notices.py
 
-The crates are those that cargo links into the extension of Python on any system, and into the core
-of pages. Crates that only compile them, such as procedural macros, are not part of them. Wheels and
-the page of the studio contain the file. The licences of Rust's standard library come from the
-toolchain (tools/build_packages.py).
+The crates are those that cargo links into the extension of Python on any system, into the library
+inside FMUs, and into the core of pages. Crates that only compile them, such as procedural macros,
+are not part of them. Wheels and the page of the studio contain the file. The licences of Rust's
+standard library come from the toolchain (tools/build_packages.py).
 """
 
 import json
@@ -16,8 +16,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 TARGET = ROOT / "THIRD_PARTY_NOTICES.txt"
-#: The extension of Python, and the core of pages, which has a lock file of its own.
-MANIFESTS = ("bindings/python/Cargo.toml", "bindings/web/Cargo.toml")
+#: The extension of Python, the library of FMUs, and the core of pages with its own lock file.
+MANIFESTS = ("bindings/python/Cargo.toml", "bindings/fmu/Cargo.toml", "bindings/web/Cargo.toml")
 #: Licences that kempe, MIT OR Apache-2.0, may include. The first that a crate offers is taken.
 ACCEPTED = ("MIT", "Zlib", "BSD-2-Clause", "BSD-3-Clause", "ISC", "Apache-2.0", "Unicode-3.0")
 #: Words that occur in the text of a licence only.

@@ -57,6 +57,8 @@ Show:
     animate, player         videos and pages with the motion
     write_report            a report with data, equations, figures, as HTML or PDF
     write_dxf               plates of the links, positions and paths as a drawing
+    write_mjcf              a model of MuJoCo
+    export_fmu              the case as a component of other simulation tools
     units                   units of tables, figures and CSV files
 
 All errors are KempeErrors. ``help`` describes each name, for example ``help(kp.Model)``.
@@ -136,8 +138,10 @@ if TYPE_CHECKING:
     from kempe.errors import ModelError as ModelError
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
+    from kempe.fmu.export import export_fmu as export_fmu
     from kempe.lab_report import write_report as write_report
     from kempe.loading import load as load
+    from kempe.mjcf.writer import write_mjcf as write_mjcf
     from kempe.model.doubts import ModelWarning as ModelWarning
     from kempe.model.functions import Function as Function
     from kempe.model.functions import FunctionWarning as FunctionWarning
@@ -257,6 +261,7 @@ _HOME = {
     "equations": "results.matrices.equations",
     "equilibrium": "analyses.equilibrium",
     "errors": "",
+    "export_fmu": "fmu.export",
     "fit": "sweeps.fits",
     "gradient": "sweeps.gradients",
     "inverse_dynamics": "analyses.kinematics",
@@ -281,6 +286,7 @@ _HOME = {
     "tolerances": "sweeps",
     "units": "base.display_units",
     "write_dxf": "draw.dxf",
+    "write_mjcf": "mjcf.writer",
     "write_report": "lab_report",
 }
 

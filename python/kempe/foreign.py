@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import codecs
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,12 @@ from kempe.errors import FileError, Problem
 LARGEST = 100_000_000
 #: Endings of the formats whose older files are written in a code page of Windows.
 _CODE_PAGES = {"dxf": "cp1252"}
+#: Endings of formats that Python reads, and a text that their first lines contain.
+_OF_PYTHON = {"xml": ("mjcf", "<mujoco")}
+#: Takes a text; returns the case as JSON, what it lacks, and recorded results.
+Reader = Callable[
+    [str], tuple[str | None, Sequence[tuple[int, str, bool]], Sequence[tuple[str, Any]]]
+]
 #: Number of reasons that a message lists.
 _SHOWN = 10
 
@@ -42,21 +48,26 @@ def format_of(path: Path | str) -> str | None:
     ending = where.suffix.lower().removeprefix(".")
     if ending in _core.exchange_formats():
         return ending
+    if ending in _OF_PYTHON:
+        return _OF_PYTHON[ending][0]
     try:
         with where.open("rb") as file:
             begin = file.read(4096)
     except OSError:
         return None
-    return _core.exchange_format(_text(begin.rpartition(b"\n")[0] or begin, None) or "")
+    first = _text(begin.rpartition(b"\n")[0] or begin, None) or ""
+    known = (form for form, mark in _OF_PYTHON.values() if mark in first)
+    return next(known, None) or _core.exchange_format(first)
 
 
-def read(path: Path | str, form: str, partial: bool) -> Foreign:
+def read(path: Path | str, form: str, partial: bool, reader: Reader | None = None) -> Foreign:
     """Read a file of another tool.
 
     Args:
         path: the file.
         form: its format.
         partial: whether what cannot be read is left out; otherwise it is an error.
+        reader: reads the text; the crate if None.
 
     Raises:
         FileError: the file cannot be read, or a part of it has no equal in kempe.
@@ -74,7 +85,7 @@ def read(path: Path | str, form: str, partial: bool) -> Foreign:
     text = _text(data, form)
     if text is None:
         raise FileError(f"cannot read {path}: not UTF-8 text", hint="save it as UTF-8")
-    case, unread, recorded = _core.exchange_read(text, form)
+    case, unread, recorded = reader(text) if reader else _core.exchange_read(text, form)
     lost = [(line, what) for line, what, harmless in unread if not harmless]
     if case is None or (lost and not partial):
         raise _refused(path, lost, case is not None)

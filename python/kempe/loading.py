@@ -10,7 +10,11 @@ from kempe.base import files
 from kempe.base.arguments import explained
 from kempe.case import FORMATS, Case, format_of, parsed
 from kempe.errors import FileError
+from kempe.mjcf.reader import read as read_mjcf
 from kempe.model.values import Number
+
+#: Readers of formats in Python.
+_READERS = {"mjcf": read_mjcf}
 
 
 @explained
@@ -52,7 +56,7 @@ def _other(
     path: Path | str, form: str, parameters: Mapping[str, Number] | None, partial: bool
 ) -> Case:
     """The case of another tool."""
-    found = foreign.read(path, form, partial)
+    found = foreign.read(path, form, partial, _READERS.get(form))
     try:
         case = parsed(found.case, "json", None, parameters, Path(path).parent)
     except FileError as error:

@@ -24,10 +24,10 @@ def test_lock_file_and_crates_have_the_version() -> None:
     text = (ROOT / "Cargo.lock").read_text(encoding="utf-8")
     locked = dict(re.findall(r'^name = "(kempe.*)"\nversion = "(.+)"$', text, re.M))
     assert locked == dict.fromkeys(
-        ["kempe", "kempe-drawing", "kempe-exchange", "kempe-python", "kempe-synthesis"],
+        [f"kempe{part}" for part in ("", "-drawing", "-exchange", "-fmu", "-python", "-synthesis")],
         kempe.__version__,
     )
-    for crate in ("core", "drawing", "exchange", "synthesis", "bindings/python"):
+    for crate in ("core", "drawing", "exchange", "synthesis", "bindings/fmu", "bindings/python"):
         manifest = (ROOT / crate / "Cargo.toml").read_text(encoding="utf-8")
         assert "\nversion.workspace = true\n" in manifest, crate
     apart = (ROOT / "bindings" / "web" / "Cargo.toml").read_text(encoding="utf-8")

@@ -21,6 +21,10 @@ LICENCES = ("LICENSE-MIT", "LICENSE-APACHE", "THIRD_PARTY_NOTICES.txt")
 INFORMATION = f"kempe-{kempe.__version__}.dist-info"
 #: The page of the studio.
 STUDIO = "kempe/studio/page.html.gz"
+#: The library inside FMUs, with its licences.
+FMU = {
+    f"kempe/_fmu/{name}" for name in ("libkempe_fmu.so", "LICENSE-MIT", "THIRD_PARTY_NOTICES.txt")
+}
 CORES = {"kempe/_core.abi3.so", "kempe/_x86_64_v3/_core.abi3.so"}
 
 
@@ -40,7 +44,7 @@ def test_the_wheel_is_for_every_python_and_old_systems(wheel_path: Path) -> None
 
 def test_the_wheel_has_all_of_the_package_and_both_cores(wheel: zipfile.ZipFile) -> None:
     inside = {name for name in wheel.namelist() if not name.startswith(INFORMATION)}
-    assert inside == tracked("python") | CORES
+    assert inside == tracked("python") | CORES | FMU
     assert {"kempe/py.typed", STUDIO} <= inside
 
 

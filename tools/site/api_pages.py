@@ -56,6 +56,7 @@ PAGES = {
             "kempe.dynamics",
             "kempe.Stepper",
             "kempe.SavedStep",
+            "kempe.export_fmu",
             "kempe.kinematics",
             "kempe.inverse_dynamics",
             "kempe.equilibrium",
@@ -158,6 +159,7 @@ PAGES = {
             "kempe.scene",
             "kempe.write_report",
             "kempe.write_dxf",
+            "kempe.write_mjcf",
         ),
     ),
     "errors": ApiPage(

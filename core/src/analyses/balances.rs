@@ -6,6 +6,7 @@
 
 use crate::equations::newton_euler::{Balances, BodyBalance};
 use crate::math::Listed;
+use serde::{Deserialize, Serialize};
 
 /// Kinetic, potential and dissipated energy, work of drivers and of applied forces, J.
 pub(super) type Energies<S> = [S; 5];
@@ -24,7 +25,7 @@ where
 }
 
 /// The balance of energy, and the ranges of the energies in the run so far.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct EnergyBalance {
     start: Option<f64>,
     low: Energies<f64>,
@@ -71,7 +72,7 @@ impl EnergyBalance {
 }
 
 /// The largest balance of a body or of an internal coordinate, and the largest forces and moments in the run so far.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct ReactionBalance {
     /// Largest force, N, and moment, N·m, on each body.
     largest: Vec<[f64; 2]>,

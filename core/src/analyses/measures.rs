@@ -117,7 +117,7 @@ impl Measure {
     }
 
     /// The values at states, with rows of accelerations and multipliers where the measure
-    /// [needs](Self::needs_solution) them.
+    /// [needs](Self::needs_solution) them. Works up to the states are zero.
     ///
     /// # Panics
     /// If the rows do not fit the model or each other.
@@ -127,8 +127,18 @@ impl Measure {
         states: States<'_>,
         solved: Option<[&[f64]; 2]>,
     ) -> Vec<f64> {
+        self.values_with(model, (states, &[]), solved)
+    }
+
+    /// The values at states with the works up to them.
+    pub(super) fn values_with(
+        &self,
+        model: &Model,
+        (states, works): (States<'_>, &[f64]),
+        solved: Option<[&[f64]; 2]>,
+    ) -> Vec<f64> {
         let mut found = Vec::with_capacity(states.t.len());
-        let rows = Rows { states, works: &[], solved };
+        let rows = Rows { states, works, solved };
         each(model, rows, &self.signals, |t, values| found.push(self.value(model, t, values)));
         found
     }

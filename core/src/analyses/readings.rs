@@ -3,7 +3,7 @@
 //! The names are those of conditions and measures, such as `crank.B.vx` or `C.force`. A run has phases, with released
 //! drivers and modes of forces. Each state is evaluated with the model of its phase.
 
-use super::dynamics::{Prepared, Run, Setting, States};
+use super::dynamics::{Failure, Prepared, Run, Setting, States};
 use super::measures::Measure;
 use super::signal_names::{names, signal};
 use super::signal_rows::{each, Rows};
@@ -13,6 +13,7 @@ use super::State;
 use crate::integrate::Flow;
 use crate::math::Listed;
 use crate::model::{did_you_mean, Model, Problem, WORKS};
+use std::sync::Arc;
 
 /// A quantity that can be evaluated at states.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -87,6 +88,27 @@ pub fn measure_of_run(model: &Model, run: &Run, measure: &Measure) -> Vec<f64> {
         }
     }
     found
+}
+
+/// The values of measures at a pause of a run: `active` is the model of its setting, `works` those up to its state.
+///
+/// # Errors
+/// Accelerations or reactions that a measure needs are not unique.
+pub fn at_pause(
+    active: &Prepared<Arc<Model>>,
+    (state, works): (&State, &[f64]),
+    measures: &[Measure],
+    passing: bool,
+) -> Result<Vec<f64>, Box<Failure>> {
+    let (model, State { t, q, v, z }) = (active.model(), state);
+    let states = States { t: &[*t], q, v, z };
+    let own: Vec<Measure> = measures.iter().map(|measure| measure.in_phase(model)).list();
+    let solves = own.iter().any(|measure| measure.needs_solution(model));
+    let solved = solves.then(|| active.accelerations(states, passing, |_| Flow::Continue));
+    let solved = solved.transpose()?;
+    let solved = solved.as_ref().map(|solved| [&solved.a[..], &solved.lam]);
+    let value = |of: &Measure| of.values_with(model, (states, works), solved)[0];
+    Ok(own.iter().map(value).list())
 }
 
 /// The values at a single state, without a run.

@@ -14,6 +14,7 @@ use crate::equations::kinematics::Motions;
 use crate::equations::newton_euler::Balances;
 use crate::math::Listed;
 use crate::model::Model;
+use serde::{Deserialize, Serialize};
 
 /// Nodes of the Gauss–Legendre rule on [0, 1], which is exact up to degree 9.
 pub(super) const PLACES: [f64; 5] = [
@@ -34,7 +35,7 @@ pub(super) const WEIGHTS: [f64; 5] = [
 
 /// The force elements that conditions use, each with the energy that it has dissipated, J, and the balances that
 /// conditions use.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct SoFar {
     elements: Vec<(usize, f64)>,
     energy: Option<EnergyBalance>,

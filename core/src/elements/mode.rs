@@ -1,7 +1,9 @@
 //! The modes of forces that change during a run: friction slides or sticks, a contact with restitution is apart or rests.
 
+use serde::{Deserialize, Serialize};
+
 /// The mode of a force in a phase of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Mode {
     /// The state determines the action. This mode applies outside of runs, and to forces without modes.
     #[default]

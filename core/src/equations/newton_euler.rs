@@ -21,9 +21,10 @@ use super::reactions::{place, reaction, touched, Frame};
 use crate::elements::{BodyId, Group};
 use crate::math::{Listed, Vec2, Wrench};
 use crate::model::{size, Model};
+use serde::{Deserialize, Serialize};
 
 /// The sums over the forces on one body at one state.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BodyBalance {
     /// |Σ F - m a_C|, N.
     pub force: f64,
@@ -39,7 +40,7 @@ pub struct BodyBalance {
 }
 
 /// The sum of the generalized forces on one internal coordinate at one state.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CoordinateBalance {
     /// |Σ λ ∂Φ/∂u|, N·m per unit of u.
     pub effort: f64,
@@ -50,7 +51,7 @@ pub struct CoordinateBalance {
 }
 
 /// The balances at one state.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Balances {
     /// All moving bodies, in the order of the model.
     pub bodies: Vec<BodyBalance>,

@@ -8,6 +8,7 @@ use crate::elements::{
 };
 use crate::expression::Tape;
 use crate::math::{Listed, Local, Real};
+use serde::{Deserialize, Serialize};
 
 /// A rigid body.
 #[derive(Clone, Debug)]
@@ -131,7 +132,7 @@ impl<S> ConstraintItem<S> {
 }
 
 /// The mode of a force in a phase.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ForceMode {
     /// Index of the force in the model.
     pub force: usize,
@@ -154,7 +155,7 @@ impl ForceMode {
 }
 
 /// Some of the constraints of a model, by their indices. Those from index 127 on are in a set together.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DriverSet(u128);
 
 impl DriverSet {

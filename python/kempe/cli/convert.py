@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
@@ -9,7 +10,7 @@ import typer
 from rich.text import Text
 
 from kempe.cli.console import answers
-from kempe.errors import FileError
+from kempe.errors import FileError, ModelError
 
 EXAMPLES = """Examples:
 
@@ -20,7 +21,34 @@ EXAMPLES = """Examples:
   kempe convert crank.txt crank.json --from asmt
 
   kempe convert four_bar.toml plates.dxf
+
+  kempe convert four_bar.toml four_bar.xml
+
+  kempe convert motor_press.toml press.fmu --input stall --output ram.y --fmi 3.0
 """
+
+#: Options of FMUs.
+Inputs = Annotated[
+    list[str] | None,
+    typer.Option("--input", metavar="NAME", help="FMU: a parameter that changes in steps."),
+]
+Outputs = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--output",
+        metavar="NAME",
+        help="FMU: a quantity or measure; by default coordinates, rates and all measures.",
+    ),
+]
+Version = Annotated[
+    str | None, typer.Option("--fmi", metavar="VERSION", help="FMU: 2.0 (default) or 3.0.")
+]
+AnalysisName = Annotated[
+    str | None,
+    typer.Option(
+        "--analysis", metavar="NAME", help="FMU: its analysis; by default the first dynamics."
+    ),
+]
 
 
 def convert(  # noqa: PLR0917 - typer distinguishes options by their annotations
@@ -40,18 +68,32 @@ def convert(  # noqa: PLR0917 - typer distinguishes options by their annotations
     force: Annotated[
         bool, typer.Option("--force", "-f", help="Overwrite an existing file.")
     ] = False,
+    inputs: Inputs = None,
+    outputs: Outputs = None,
+    fmi: Version = None,
+    analysis: AnalysisName = None,
 ) -> None:
     """Convert a file of another tool to a case of kempe, or a case to another format."""
     from kempe.loading import convert as convert_file
 
     if not force and (output.exists() or output.is_symlink()):
         raise FileError(f"{output} exists", name=str(output), hint="--force overwrites it")
-    if (to or output.suffix.lower().removeprefix(".")) == "dxf":
+    chosen = to or output.suffix.lower().removeprefix(".")
+    chosen = "mjcf" if chosen == "xml" else chosen
+    _refuse_options(chosen, {"input": inputs, "output": outputs, "fmi": fmi, "analysis": analysis})
+    if chosen in ("dxf", "fmu", "mjcf"):
         from kempe.draw.dxf import write_dxf
+        from kempe.fmu.export import export_fmu
         from kempe.loading import load
+        from kempe.mjcf.writer import write_mjcf
 
         case = load(file, partial=partial, form=form)
-        write_dxf(case.start(), output)
+        if chosen == "dxf":
+            write_dxf(case.start(), output)
+        elif chosen == "mjcf":
+            write_mjcf(case.start(), output)
+        else:
+            export_fmu(case, output, inputs or (), outputs, version=fmi or "2.0", analysis=analysis)
         unread = case.unread
     else:
         unread = convert_file(file, output, form, to, partial=partial)
@@ -59,3 +101,13 @@ def convert(  # noqa: PLR0917 - typer distinguishes options by their annotations
     for line in unread:
         console.print(Text(f"left out: {line}"))
     console.print(Text(f"{output} written"))
+
+
+def _refuse_options(form: str, options: Mapping[str, object]) -> None:
+    """Raise an error if options of FMUs are given for another format."""
+    given = [name for name, value in options.items() if value]
+    if given and form != "fmu":
+        raise ModelError(
+            f"--{given[0]} belongs to FMUs, not to the format {form}",
+            hint="the name of an FMU ends with .fmu",
+        )

@@ -25,6 +25,7 @@ use crate::elements::Mode;
 use crate::integrate::Flow;
 use crate::math::Listed;
 use crate::model::{usual_energy, Model, Problem};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// The changes that a caller makes at an event, or between the parts of a run.
@@ -83,13 +84,16 @@ pub(super) fn run(
 }
 
 /// A run between two of its phases.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct PhasedRun {
+    #[serde(skip)]
     events: Arc<Vec<Planned>>,
     setting: Setting,
     /// The model of this setting; None for the model of the run.
+    #[serde(skip)]
     own: Option<Arc<Own>>,
     /// The conditions of the events, for this model.
+    #[serde(skip)]
     conditions: Arc<Vec<Option<Condition>>>,
     pub at: Progress,
     impacts: (ImpactOrder, RestitutionLaw),
@@ -129,6 +133,20 @@ impl PhasedRun {
         run.note(passage);
         course.read_conditions(base)?;
         Ok(course)
+    }
+
+    /// Adds the tables that were not written with a course: those of another course of the same model and options.
+    pub fn link(&mut self, base: &Model, other: &Self) -> Result<(), Box<Failure>> {
+        let fits = self.at.y.len() == base.layout.n_y()
+            && self.at.fired.iter().all(|index| *index < other.events.len())
+            && self.setting.modes.iter().all(|of| of.force < base.forces.len());
+        if !fits {
+            let message = "the state is that of another model".to_string();
+            return Err(Reason::Option { name: "state", message }.into());
+        }
+        self.events = Arc::clone(&other.events);
+        self.own = Own::of(base, &self.setting, self.at.t)?;
+        self.read_conditions(base)
     }
 
     /// The events of a part of the run, which have not occurred.

@@ -26,6 +26,7 @@ use crate::equations::newton_euler::{self, Balances};
 use crate::integrate::Flow;
 use crate::math::Listed;
 use crate::model::{row_scales, Model, WORKS};
+use serde::{Deserialize, Serialize};
 
 /// Opening of a joint without projection, relative to the size or in rad, beyond which the result has a doubt.
 const DRIFT: f64 = 1e-4;
@@ -38,7 +39,7 @@ const NEAR: f64 = 0.3;
 const LEAST: f64 = 1e-9;
 
 /// The largest value so far, with its time and name.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Worst {
     value: f64,
     t: f64,
@@ -55,7 +56,7 @@ impl Worst {
 }
 
 /// The balances of a run so far.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Guard {
     limits: LargestBalances,
     energy: EnergyBalance,
@@ -74,7 +75,7 @@ pub(super) struct Guard {
 }
 
 /// The limits of a run.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct LargestBalances {
     force: f64,
     joint: Option<f64>,

@@ -22,9 +22,10 @@ use crate::integrate::{Cause, Flow, TooFast};
 use crate::math::Listed;
 use crate::model::Model;
 use crate::solve::Breakdown;
+use serde::{Deserialize, Serialize};
 
 /// The progress of a run through its phases.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Progress {
     /// The start of the run.
     t0: f64,

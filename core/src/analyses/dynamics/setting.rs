@@ -4,10 +4,11 @@ use super::options::Options;
 use crate::equations::energy;
 use crate::equations::kinematics::Motions;
 use crate::model::{ForceMode, Model, Problem};
+use serde::{Deserialize, Serialize};
 
 /// Parameters that differ from the parameters of the model, drivers that are released, and the modes of forces that
 /// have modes.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Setting {
     /// Values of parameters by name.
     pub parameters: Vec<(String, f64)>,

@@ -4,9 +4,10 @@ use super::failure::{Failure, Reason};
 use super::setting::Setting;
 use crate::math::Listed;
 use crate::model::Model;
+use serde::{Deserialize, Serialize};
 
 /// Counts changes of mode that occur at one time.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Stall {
     t: f64,
     count: usize,

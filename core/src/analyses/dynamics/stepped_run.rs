@@ -15,11 +15,13 @@ use super::setting::Setting;
 use crate::analyses::{second_order, State};
 use crate::integrate::Flow;
 use crate::model::Model;
+use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// A state of a [`SteppedRun`] from which it continues.
-#[derive(Clone, Debug)]
+/// A state of a [`SteppedRun`] from which it continues. It can be written, without the tables of its model, which
+/// [`SteppedRun::adopt`] adds again.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SavedRun {
     course: PhasedRun,
     /// The first of equal parts, their duration and their number so far: their ends are computed without drift.
@@ -200,5 +202,16 @@ impl<M: Deref<Target = Model>> SteppedRun<M> {
     pub fn restore(&mut self, saved: &SavedRun) {
         self.now = saved.clone();
         self.last = Run { events: self.now.course.events(), ..Run::default() };
+    }
+
+    /// Continues from a state that was written and read again. It must belong to a run of the same model and options.
+    ///
+    /// # Errors
+    /// The state does not fit this run. The run then remains where it was.
+    pub fn adopt(&mut self, mut read: SavedRun) -> Result<(), Box<Failure>> {
+        let base = self.own.as_ref().map_or_else(|| &**self.prepared.model(), |own| &own.0);
+        read.course.link(base, &self.now.course)?;
+        self.restore(&read);
+        Ok(())
     }
 }
