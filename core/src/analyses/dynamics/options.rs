@@ -9,6 +9,7 @@ use crate::analyses::options::{
 };
 use crate::equations::Gains;
 use crate::model::{Model, Problem, Value};
+use serde::{Deserialize, Serialize};
 
 /// Numerator of the default of max_steps, which is divided by the number of moving bodies. It corresponds to some
 /// seconds, and to half a gigabyte if everything is stored.
@@ -34,7 +35,7 @@ pub enum Singularity {
 }
 
 /// The contacts that act in an impact.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ImpactOrder {
     /// Those that approach, in rounds until none approaches.
     #[default]
@@ -44,7 +45,7 @@ pub enum ImpactOrder {
 }
 
 /// The meaning of the restitution where contacts have friction or act together.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum RestitutionLaw {
     /// The impulse of expansion over the impulse of compression.
     #[default]
