@@ -15,7 +15,10 @@ GENERATED = "@generated"
 #: body, and the files of MuJoCo (those of other tools are in the crate exchange).
 WRITERS = {
     ROOT / "bindings" / "web" / "src" / "live.rs",
-    *(PACKAGE / "mjcf" / f"{name}.py" for name in ("structure", "forces", "trees", "writer")),
+    *(
+        PACKAGE / "mjcf" / f"{name}.py"
+        for name in ("settings", "structure", "forces", "trees", "writer")
+    ),
 }
 
 #: Types whose names, or whose `type`, are also words of mechanics, allowed where they name no type.
