@@ -173,7 +173,7 @@ def test_a_stack_of_ten_blocks_rests_on_a_slope() -> None:
 
 
 def test_a_disc_rolls_on_a_ring_and_slips_off() -> None:
-    """It rolls on a fixed circle until its friction is used up, as energy tells, then slips."""
+    """It rolls on a fixed circle until its friction is used up (energy balance), then slips."""
     mu, R, r, tilt = 0.3, 1.0, 0.25, 0.1
     m = kp.Model("ring", gravity=(0, -G))
     m.ground.curves(ring={"circle": (0, 0, R)})
@@ -231,7 +231,7 @@ def test_feet_that_repeat_others_need_the_same_friction() -> None:
     sol = three_feet((0.2, 0.2, 0.2))
     angle = np.radians(20)
     assert sol["block.vx"][-1] == pytest.approx(-0.5 * G * (np.sin(angle) - 0.2 * np.cos(angle)))
-    with pytest.raises(kp.RedundancyError, match="is not unique.*their friction depends on it"):
+    with pytest.raises(kp.RedundancyError, match=r"is not unique.*their friction depends on it"):
         three_feet((0.1, 0.2, 0.3))
 
 
