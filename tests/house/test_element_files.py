@@ -11,8 +11,15 @@ from house.places import CORE, PACKAGE, ROOT
 LIST = CORE / "elements" / "mod.rs"
 GENERATED = "@generated"
 
-#: Sources that write entries of a case, as users do: the spring by which a page pulls at a body.
-WRITERS = {ROOT / "bindings" / "web" / "src" / "live.rs"}
+#: Sources that write or read entries of a case, as users do: the spring by which a page pulls at a
+#: body, and the files of MuJoCo (those of other tools are in the crate exchange).
+WRITERS = {
+    ROOT / "bindings" / "web" / "src" / "live.rs",
+    *(
+        PACKAGE / "mjcf" / f"{name}.py"
+        for name in ("settings", "structure", "forces", "trees", "writer")
+    ),
+}
 
 #: Types whose names, or whose `type`, are also words of mechanics, allowed where they name no type.
 WORDS = {

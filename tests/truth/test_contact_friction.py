@@ -173,7 +173,7 @@ def test_a_stack_of_ten_blocks_rests_on_a_slope() -> None:
 
 
 def test_a_disc_rolls_on_a_ring_and_slips_off() -> None:
-    """It rolls on a fixed circle until its friction is used up, as energy tells, then slips."""
+    """It rolls on a fixed circle until its friction is used up (energy balance), then slips."""
     mu, R, r, tilt = 0.3, 1.0, 0.25, 0.1
     m = kp.Model("ring", gravity=(0, -G))
     m.ground.curves(ring={"circle": (0, 0, R)})
@@ -192,6 +192,47 @@ def test_a_disc_rolls_on_a_ring_and_slips_off() -> None:
     rolled = -(R + r) / r * (theta - tilt)
     assert slip.states[0]["disc.angle"] == pytest.approx(rolled, rel=1e-8)
     assert len(sol.events["touch.release"].t) == 1
+
+
+@pytest.mark.parametrize("method", [FINE, kp.Radau(rtol=1e-9, atol=1e-11)])
+def test_a_spinning_ball_bounces_on_a_soft_floor(method: Any) -> None:
+    """Friction keeps the moment about its place, m vx r - J omega, until the ball rolls."""
+    mass, r, mu, inertia = 1.0, 0.2, 0.3, 0.016
+    m = slope(1.0, 0.0)
+    m.body("ball", mass=mass, inertia=inertia, points={"C": (0, 0)})
+    law = {"friction": mu, "static": 1.2 * mu, "stiffness": 1e4, "damping": 0.05}
+    m.contact("touch", "ball.C", "ground.floor", radius=r, **law)
+    at = {"x": 0, "y": 0.5, "angle": 0, "vx": 0.2, "vy": 0, "omega": 40}
+    start = kp.assemble(m, set={f"ball.{name}": x for name, x in at.items()})
+    sol = kp.dynamics(m, start, t_end=1.5, method=method)
+    rolls = (inertia * 40 - mass * r * 0.2) / (inertia + mass * r**2)
+    assert sol["ball.omega"][-1] == pytest.approx(rolls, rel=1e-8)
+    assert sol["ball.vx"][-1] == pytest.approx(-rolls * r, rel=1e-8)
+    assert np.abs(sol.energy.balance).max() < 1e-6
+    # it slides in the first touch, from whose beginning on friction acts
+    hit, release = sol.events["touch.hit"].t[0], sol.events["touch.release"].t[0]
+    pressed = mass * (sol(release)["ball.vy"] - sol(hit)["ball.vy"] + G * (release - hit))
+    assert sol(release)["ball.vx"] == pytest.approx(0.2 - mu * pressed / mass, rel=1e-6)
+    assert len(sol.events["touch.hit"].t) == 3
+
+
+def three_feet(friction: tuple[float, float, float]) -> kp.Solution:
+    """A block on a slope with three feet in a row, of which one repeats the others."""
+    m = slope(1.0, np.radians(20))
+    m.body("block", mass=2, inertia=1, points={"A": (-1, -0.2), "B": (0, -0.2), "C": (1, -0.2)})
+    for foot, mu in zip("ABC", friction, strict=True):
+        m.contact(foot, f"block.{foot}", "ground.floor", friction=mu, restitution=0)
+    at = {"x": 0, "y": 0.2, "angle": 0, "vx": 0, "vy": 0, "omega": 0}
+    start = kp.assemble(m, set={f"block.{name}": x for name, x in at.items()})
+    return kp.dynamics(m, start, t_end=0.5)
+
+
+def test_feet_that_repeat_others_need_the_same_friction() -> None:
+    sol = three_feet((0.2, 0.2, 0.2))
+    angle = np.radians(20)
+    assert sol["block.vx"][-1] == pytest.approx(-0.5 * G * (np.sin(angle) - 0.2 * np.cos(angle)))
+    with pytest.raises(kp.RedundancyError, match=r"is not unique.*their friction depends on it"):
+        three_feet((0.1, 0.2, 0.3))
 
 
 def test_other_curves_are_refused_with_a_remedy() -> None:

@@ -112,9 +112,9 @@ macro_rules! forces {
         }
 
         impl ForceElement {
-            /// The coefficient of friction of a contact in impacts.
-            pub fn impulse_friction(&self) -> f64 {
-                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::impulse_friction(e),)+ }
+            /// The coefficients of friction of a contact that slides and that sticks.
+            pub fn coefficients(&self) -> [f64; 2] {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::coefficients(e),)+ }
             }
             /// The distances whose zeros begin and end a contact.
             pub fn clearances(&self) -> Vec<Clearance<'_>> {

@@ -300,11 +300,11 @@ pub trait Force: Element {
         (S::zero(), Wrench::zero())
     }
 
-    /// The coefficient of friction of a contact in impacts.
+    /// The coefficients of friction of a contact that slides and that sticks.
     #[inline]
-    fn impulse_friction(e: &Self::Over<f64>) -> f64 {
+    fn coefficients(e: &Self::Over<f64>) -> [f64; 2] {
         let _ = e;
-        0.0
+        [0.0; 2]
     }
 
     /// Whether friction acts in one direction only, as a freewheel does: its effort on body j is not negative.

@@ -91,7 +91,7 @@ pub fn held() -> Vec<Constraint> {
 /// jumps where a body is behind the line, and on a circle after half a turn.
 fn sticking() -> Vec<Constraint> {
     let of = |side: Side| {
-        let line = Curve::Line { from: Local::new(-400.0, -180.0), to: Local::new(500.0, 220.0) };
+        let line = Curve::Line { from: Local::new(-20.0, -9.0), to: Local::new(25.0, 11.0) };
         let curve = Rim::new(CurveOn { body: BodyId(2), curve: line });
         let (radius, value) = (0.3, 0.1);
         let equation = ContactSticking { i: on(1, 0.2, -0.4), curve, radius, side, value };

@@ -171,8 +171,8 @@ impl Force for ContactFriction {
         e.times(e.r#static, at, &e.touch().at_pitch(at))
     }
 
-    fn impulse_friction(e: &ContactFriction) -> f64 {
-        e.kinetic
+    fn coefficients(e: &ContactFriction) -> [f64; 2] {
+        [e.kinetic, e.r#static]
     }
 
     fn holding(e: &ContactFriction<Tape>, _: f64, value: f64) -> Option<Constraint<Tape>> {

@@ -1,5 +1,6 @@
 //! The friction of contacts, which acts only while the contact presses.
 
+use super::super::failure::{Failure, Reason};
 use super::place::{is_contact, mode_of, StateAt};
 use crate::elements::Mode;
 use crate::model::{ForceMode, Model};
@@ -55,4 +56,40 @@ pub(super) fn contact_of(model: &Model, force: usize) -> Option<usize> {
 /// Whether one of these contacts has friction that sticks.
 pub(super) fn rub(model: &Model, contacts: &[usize]) -> bool {
     contacts.iter().any(|k| model.forces[*k].partner.is_some())
+}
+
+/// Refuses friction of contacts whose normal forces are not unique, because a contact repeats others. It does not matter
+/// where all contacts at rest of the same two bodies have the same coefficients.
+///
+/// # Errors
+/// [`Failure`] that names the contact.
+pub(super) fn check(
+    model: &Model,
+    place: &StateAt<'_>,
+    modes: &[ForceMode],
+) -> Result<(), Box<Failure>> {
+    let coefficients = |k: usize| {
+        let rubs = model.forces[k].partner?;
+        Some(model.forces[rubs].element.coefficients())
+    };
+    let rests = |own: &&ForceMode| {
+        let item = &model.forces[own.force];
+        is_contact(model, own.force) && !item.is_companion && own.mode.holds()
+    };
+    for own in modes.iter().filter(rests).filter(|own| own.mode == Mode::Idle) {
+        let bodies = &model.forces[own.force].bodies;
+        let beside =
+            modes.iter().filter(rests).filter(|of| model.forces[of.force].bodies == *bodies);
+        if { beside }.all(|of| coefficients(of.force) == coefficients(own.force)) {
+            continue;
+        }
+        let (t, name) = (place.t, model.forces[own.force].name.clone());
+        let message = format!(
+            "the normal force of {name} is not unique at t = {t:.6} s, because it repeats other contacts of the same \
+             bodies, and their friction depends on it"
+        );
+        let hint = "give all of them the same friction and static, or remove one of them";
+        return Err(Reason::Redundant { t, name, message, hint }.into());
+    }
+    Ok(())
 }

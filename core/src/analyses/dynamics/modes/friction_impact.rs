@@ -90,7 +90,7 @@ pub(super) fn strike(
         }
         let loss = before - kinetic(&after);
         if loss >= -GROWS * before {
-            return Ok(found.impact(model, contacts, &impulses, (after, loss, common)));
+            return Ok(found.impact(contacts, &impulses, (after, loss, common)));
         }
         if law == RestitutionLaw::Newton {
             break;
@@ -132,7 +132,7 @@ impl Contacts {
                 jump.map_err(|breakdown| Failure::at_state(model, t, q, breakdown))?;
             let of = companions::contact_of(model, force).map(|contact| {
                 let at = contacts.iter().position(|k| *k == contact).expect("its contact");
-                (at, model.forces[force].element.impulse_friction())
+                (at, model.forces[force].element.coefficients()[0])
             });
             all.push(ImpactDirection { force, row, sign, rate, jump, joints, unit: 1.0, of });
             gradients.push(gradient);
@@ -191,19 +191,15 @@ impl Contacts {
     fn solve(&self, rates: &[f64], given: &[f64]) -> Option<Vec<f64>> {
         let (n, m) = (self.normals, self.all.len() - self.normals);
         // Λ_N, the two directions of friction, and the slack of each friction
-        let column = |k: usize| match k {
-            k if k < n => (k, 1.0),
-            k if k < n + m => (k, 1.0),
-            k => (k - m, -1.0),
-        };
+        let column = |k: usize| if k < n + m { (k, 1.0) } else { (k - m, -1.0) };
         let size = n + 3 * m;
         let (mut a, mut b) = (vec![vec![0.0; size]; size], vec![0.0; size]);
-        for i in 0..n + 2 * m {
+        for (i, (entries, rate)) in a.iter_mut().zip(&mut b).take(n + 2 * m).enumerate() {
             let (row, sign) = column(i);
-            b[i] = sign * rates[row];
-            for k in 0..n + 2 * m {
+            *rate = sign * rates[row];
+            for (k, x) in entries.iter_mut().take(n + 2 * m).enumerate() {
                 let (other, direction) = column(k);
-                a[i][k] = sign * direction * self.compliance[row][other];
+                *x = sign * direction * self.compliance[row][other];
             }
         }
         for k in 0..m {
@@ -222,7 +218,6 @@ impl Contacts {
 
     fn impact(
         self,
-        model: &Model,
         contacts: &[usize],
         impulses: &[f64],
         (after, loss, common): (Vec<f64>, f64, Option<usize>),
@@ -240,7 +235,6 @@ impl Contacts {
             own.is_some_and(|at| impulses[at] > 0.0 || all[at].rate < 0.0)
         };
         let contacts = contacts.iter().filter(pushes).copied().list();
-        debug_assert!(model.layout.n_rows <= found.len());
         Impact { contacts, closed, found, after, loss, common }
     }
 }

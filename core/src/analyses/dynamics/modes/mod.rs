@@ -75,6 +75,7 @@ pub(super) fn settle(
         impacts::resolve(model, place, &touching, law)?;
     let jumped = (!hits.is_empty()).then_some(fastest);
     let modes = holding::decide(model, place, before, (&touching, fired, jumped))?;
+    companions::check(model, place, &modes)?;
     let collapsed = !ended.is_empty();
     let mut changed = ended.into_iter().map(|k| (k, COLLAPSE)).list();
     for (old, new) in before.iter().zip(&modes) {
