@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from kempe._core_exchange import *  # noqa: F403
 from kempe._core_sweeps import *  # noqa: F403
+from kempe._core_synthesis import *  # noqa: F403
 
 _F = NDArray[np.float64]
 _Progress = Callable[[float], None] | None

@@ -21,6 +21,8 @@ mod pose;
 mod readiness;
 mod run;
 mod session;
+mod synthesis;
+mod typed;
 
 pub use session::Session;
 

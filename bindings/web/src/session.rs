@@ -13,6 +13,7 @@ use crate::named;
 use crate::pose::pose;
 use crate::readiness::readiness;
 use crate::run::Ran;
+use crate::synthesis::Task;
 use kempe::analyses::assemble::{self, Request};
 use kempe::analyses::readings;
 use kempe::analyses::record::Outcome;
@@ -80,9 +81,16 @@ impl Session {
                 Ok(json!({ "numbers": self.numbers.len() }))
             }
             "instant" => self.last_run()?.instant(fields.number("at")?),
+            "synthesis" => Ok(self.task()?.described()),
+            "candidate" => self.task()?.solved()?.taken(fields.number("choice")? as usize),
             "values" => self.values(&fields.texts("names")?),
             other => Err(Fault::new(format!("there is no request '{other}'"))),
         }
+    }
+
+    /// The task of the section `[synthesis]`.
+    fn task(&mut self) -> Result<Task, Fault> {
+        Task::read(&self.loaded()?.case.synthesis)
     }
 
     fn loaded(&mut self) -> Result<&mut Loaded, Fault> {

@@ -1,4 +1,5 @@
 // The panel at the side: the panel of the mode, the text, and on phones the palette.
+import { DesignPanel } from "../design/Panel";
 import { phase } from "../guide/guide";
 import { dismiss, hint } from "../store/hints";
 import { mode, panel, problems } from "../store/state";
@@ -77,5 +78,6 @@ function Tab({ id, label, chosen, next, onClick }: TabProps) {
 function Main() {
   if (mode.value === "move") return <MovePanel />;
   if (mode.value === "live") return <LivePanel />;
+  if (mode.value === "design") return <DesignPanel />;
   return mode.value === "read" ? <ReadPanel /> : <Properties />;
 }

@@ -7,7 +7,7 @@ import type { Units } from "../draw/display";
 import type { Item } from "../draw/items";
 import type { Placement } from "../plane/points";
 
-export const MODES = ["edit", "move", "live", "read"] as const;
+export const MODES = ["edit", "move", "live", "read", "design"] as const;
 export type Mode = (typeof MODES)[number];
 
 export interface Message {
