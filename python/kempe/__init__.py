@@ -137,6 +137,7 @@ if TYPE_CHECKING:
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
     from kempe.lab_report import write_report as write_report
+    from kempe.exercise import Exercise as Exercise
     from kempe.loading import load as load
     from kempe.model.doubts import ModelWarning as ModelWarning
     from kempe.model.functions import Function as Function
@@ -198,6 +199,7 @@ _HOME = {
     "Equilibrium": "analyses.options",
     "EquilibriumResult": "analyses.equilibrium",
     "Event": "analyses.event",
+    "Exercise": "exercise",
     "EventWarning": "results.events",
     "FileError": "errors",
     "Function": "model.functions",

@@ -68,6 +68,17 @@ class Case:
     def write(self, format: str) -> str:  # noqa: A002
         """The case as "toml" or "json" text."""
 
+    def variant(
+        self, seed: int, texts: list[str]
+    ) -> tuple[list[tuple[str, float, str]], list[str]]:
+        """Random parameters of the exercise for a seed, and texts with the values of parameters.
+
+        A parameter is its name, its value in SI units, and its value for people.
+
+        Raises:
+            ModelError: the unit of a range is unknown.
+        """
+
     def place(self, path: str) -> tuple[str, int, int] | None:
         """File, line and column of the entry at a path; None without a file or an entry."""
 

@@ -45,6 +45,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "is_reserved": lambda: _core.is_reserved("t"),
     "Case": lambda: _core.Case("kempe = 1", "toml", None),
     "Case.tree": CASE.tree,
+    "Case.variant": lambda: CASE.variant(1, []),
     "Case.write": lambda: CASE.write("json"),
     "Case.model": lambda: CASE.model("{}"),
     "Case.place": lambda: CASE.place("joints.A"),

@@ -16,7 +16,7 @@ ROWS = (
     ("case",),
     ("loading",),
     ("design", "draw", "report", "stepping", "studio", "sweeps", "templates"),
-    ("synthesis",),
+    ("exercise", "synthesis"),
     ("plot",),
     ("lab_report", "notebook"),
     ("cli",),

@@ -189,6 +189,26 @@ export interface Candidate {
   crank_angles: number[];
 }
 
+/** A question of a case, with the values of its variant. */
+export interface Question {
+  name: string;
+  text: string;
+  /** The unit of an answer without one. */
+  unit: string;
+  hints: string[];
+  points: number;
+}
+
+/** The section [exercise] of a case. */
+export interface Exercise {
+  seed: number;
+  /** Whether it has random parameters. */
+  random: boolean;
+  text: string;
+  parameters: { name: string; value: number; shown: string }[];
+  questions: Question[];
+}
+
 /** The answer to the section [synthesis]. */
 export interface Solved {
   poses: Triple[];
@@ -236,6 +256,13 @@ export interface Requests {
   run: {
     send: { analysis?: string; t_end?: number; output_step?: number; over?: string; range?: [string, string] };
     reply: Ran | Found;
+  };
+  exercise: { send: { seed?: number }; reply: Exercise };
+  variant: { send: { seed: number }; reply: { changes: Change[] } };
+  answer: { send: { question: string; given: string }; reply: { right: boolean; value: number } };
+  slopes: {
+    send: { measure: string; analysis?: string };
+    reply: { value: number; unit: string; slopes: { name: string; slope: number | null; remark: string | null }[] };
   };
   synthesis: { send: object; reply: Solved };
   candidate: { send: { choice: number }; reply: { changes: Change[] } };

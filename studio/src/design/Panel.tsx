@@ -1,5 +1,5 @@
 // The panel of design mode: the poses, the limits, and the candidates with their defects.
-import type { Candidate, Triple, Value } from "../core/protocol";
+import type { Candidate, Triple } from "../core/protocol";
 import { displayed } from "../draw/display";
 import { besideUnit, minus, significant } from "../draw/numbers";
 import { typed } from "../edit/values";
@@ -19,6 +19,7 @@ import {
   posed,
   poses,
   removePose,
+  rowOf,
   section,
   setOption,
   solved,
@@ -29,7 +30,7 @@ import {
 export function DesignPanel() {
   const words = texts.design;
   return (
-    <div class="properties design">
+    <div class="properties poses-panel">
       <p class="doc">{poses.value.length ? words.hint : words.begin}</p>
       {fault.value ? (
         <p class="doc wrong" role="alert">
@@ -78,7 +79,7 @@ function PoseField({ k, j, value }: { k: number; j: number; value: number }) {
     const given = typed(text);
     if (given === undefined) return;
     const own: Triple = [...poses.value[k]!];
-    const row: Value[] = written(own);
+    const row = rowOf(k);
     if (typeof given === "number") {
       own[j] = given / factor;
       row[j] = written(own)[j]!;

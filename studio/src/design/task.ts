@@ -72,8 +72,10 @@ async function solve(): Promise<void> {
   } catch (error) {
     if (error instanceof Superseded) return;
     solved.value = null;
-    if (error instanceof CoreError) fault.value = error.problem.message;
-    else report(error);
+    if (error instanceof CoreError) {
+      const { message, hint } = error.problem;
+      fault.value = hint ? `${message}; ${hint}` : message;
+    } else report(error);
   }
 }
 
@@ -86,6 +88,12 @@ export function written([x, y, angle]: Triple): Value[] {
 function rows(): Value[] {
   const found = section.value?.poses;
   return Array.isArray(found) ? found : [];
+}
+
+/** A pose as it is written in the text. */
+export function rowOf(k: number): Value[] {
+  const found = rows()[k];
+  return Array.isArray(found) ? [...found] : [];
 }
 
 /** The changes that give the task these poses. */

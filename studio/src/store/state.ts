@@ -58,7 +58,7 @@ export const snapping = signal(true);
 /** Points, lengths and angles that a drag does not change, by the names in edit/holding.ts. */
 export const held = signal<ReadonlySet<string>>(new Set());
 
-export const panel = signal<"properties" | "text" | "results" | "insert">("properties");
+export const panel = signal<"properties" | "text" | "results" | "insert" | "questions">("properties");
 export const dialog = signal<"gallery" | "share" | "help" | null>(null);
 
 /** Show a message in the status line. */
