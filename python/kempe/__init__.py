@@ -136,8 +136,8 @@ if TYPE_CHECKING:
     from kempe.errors import ModelError as ModelError
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
-    from kempe.lab_report import write_report as write_report
     from kempe.exercise import Exercise as Exercise
+    from kempe.lab_report import write_report as write_report
     from kempe.loading import load as load
     from kempe.model.doubts import ModelWarning as ModelWarning
     from kempe.model.functions import Function as Function

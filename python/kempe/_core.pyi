@@ -71,13 +71,7 @@ class Case:
     def variant(
         self, seed: int, texts: list[str]
     ) -> tuple[list[tuple[str, float, str]], list[str]]:
-        """Random parameters of the exercise for a seed, and texts with the values of parameters.
-
-        A parameter is its name, its value in SI units, and its value for people.
-
-        Raises:
-            ModelError: the unit of a range is unknown.
-        """
+        """Random parameters (name, SI value, text) for a seed, and texts with these values."""
 
     def place(self, path: str) -> tuple[str, int, int] | None:
         """File, line and column of the entry at a path; None without a file or an entry."""

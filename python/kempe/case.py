@@ -39,10 +39,9 @@ from kempe.results.solution import Solution
 from kempe.results.state import State
 
 FORMATS = {".toml": "toml", ".json": "json"}
-#: The sections that ask for many runs, for slopes or for linkages, and questions; an example.
+#: The sections that ask for runs, slopes, linkages or answers, and an example.
 _REQUESTS = ("sweep", "gradient", "optimize", "fit", "synthesis", "exercise")
 _FORM = "{'variables': …, 'measures': […]}"
-
 #: The class of each result that is not a motion, by the type of the analysis.
 _RESULTS: dict[str, Callable[[Record], Result]] = {
     "equilibrium": EquilibriumResult,
@@ -63,12 +62,7 @@ class Case:
         start: a ``Start``, or a mapping with ``set`` and ``guess``.
         analyses: ``Dynamics`` or other analyses, in order; or a mapping of names to entries as in
             a file.
-        sweep: the default sweep of the case, as in a file: ``{"variables": …, "measures": …}``.
-        gradient: the default gradient, as in a file: ``{"measures": […], "variables": […]}``.
-        optimize: the default optimisation, as in a file: ``{"variables": …, "minimize": …}``.
-        fit: the default fit, as in a file: ``{"columns": …, "parameters": …}``.
-        synthesis: the task of a linkage, as in a file: ``{"task": "motion", "poses": […]}``.
-        exercise: questions about the mechanism, as in a file: ``{"questions": …}``.
+        sweep, gradient, optimize, fit, synthesis, exercise: these sections, as in a file.
 
     Attributes:
         model: the mechanism.
@@ -100,8 +94,7 @@ class Case:
         self.model = model
         self._start = read_start(start)
         self._entries = read_entries(analyses)
-        given = (sweep, gradient, optimize, fit, synthesis, exercise)
-        asked = zip(_REQUESTS, given, strict=True)
+        asked = zip(_REQUESTS, (sweep, gradient, optimize, fit, synthesis, exercise), strict=True)
         self._asked = {key: plain(mapping(of or {}, key, _FORM), key) for key, of in asked}
         self._core().check(model.compile().core)
 

@@ -78,7 +78,7 @@ class Question:
         return value
 
     def check(self, answer: float | str) -> bool:
-        """Whether an answer is right; see ``read``."""
+        """Whether an answer is correct; see ``read``."""
         return abs(self.read(answer) - self.value) <= self.within
 
 
@@ -159,13 +159,13 @@ class Exercise:
         """Whether the answers of a result are right, by question.
 
         The file that the studio writes is a result. Its answers are checked again; its own marks
-        are not used. A question without an answer, or whose answer cannot be read, is not right.
+        are not used. A question without an answer, or whose answer cannot be read, counts as wrong.
 
         Args:
             result: the content of the file.
 
         Raises:
-            ModelError: it is no result, or belongs to another variant.
+            ModelError: it is not a result, or belongs to another variant.
         """
         if result.get("kempe_result") != RESULT_FORMAT:
             raise ModelError("this is not a result of an exercise of this version of kempe")

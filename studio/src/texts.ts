@@ -1,6 +1,7 @@
 // All English texts of the studio and its worker, with drawingTexts.ts, and with playerTexts.ts those of the player. Names of types, their
-// fields and their descriptions come from the catalogue. Each bundle contains only the parts that it imports.
+// fields and their descriptions come from the catalogue.
 import { coreTexts } from "./coreTexts";
+import { design, exercise, slopes } from "./designTexts";
 import { atPlace, edit, labels, machines, place, stems } from "./drawingTexts";
 import { ARROWS_ON, forces, ON_ALL } from "./playerTexts";
 
@@ -112,63 +113,9 @@ export const texts = {
     angle: "angle",
     absent: "–",
   },
-  exercise: {
-    title: "Questions",
-    variant: "Variant",
-    ofFile: "numbers of the file",
-    another: "Another",
-    noVariant: "The number of a variant is a whole number from 1.",
-    number: (k: number, points: number) => `Question ${k} (${points} ${points === 1 ? "point" : "points"})`,
-    check: "Check",
-    checking: "Checking …",
-    right: "Right.",
-    wrong: (tries: number) => `Not right yet${tries > 1 ? ` (${tries} tries)` : ""}.`,
-    hint: (k: number, n: number) => `Hint ${k} of ${n}`,
-    result: "Result",
-    score: (right: number, most: number) => `${right} of ${most} points`,
-    name: "Name",
-    save: "Save the result",
-    saveHint: "A file with your answers, which you send",
-  },
-  design: {
-    begin: "Click where a coupler must come. From two poses on, the four-bars that take them appear.",
-    hint: "Drag a pose to move it and the end of its arm to turn it. The four-bars follow.",
-    poses: "Poses of the coupler",
-    pose: (k: number) => `Select pose ${k}`,
-    field: (k: number, name: string) => `${name} of pose ${k}`,
-    angle: (unit: string) => `angle / ${unit}`,
-    remove: (k: number) => `Delete pose ${k}`,
-    add: "Add a pose",
-    most: (n: number) => `A four-bar takes at most ${n} poses exactly.`,
-    otherTask: (task: string) =>
-      `The case has a task “${task}”. Delete its section [synthesis] to place poses, or begin with New.`,
-    limits: "Limits",
-    tell: "Show defects",
-    tellHint: "Keep four-bars that do not take the poses in order, on one branch and circuit",
-    grashof: "Grashof",
-    grashofHint: "Only four-bars of which a link turns fully",
-    transmission: "Least transmission angle",
-    none: "none",
-    candidates: (n: number, complete: boolean) =>
-      n === 0 ? "No four-bar" : `${n} ${n === 1 ? "four-bar" : "four-bars"}${complete ? "; there are no others" : ""}`,
-    number: (k: number, n: number) => `Four-bar ${k} of ${n}`,
-    type: "Type",
-    turns: "Crank",
-    fully: "turns fully",
-    between: "swings",
-    least: "Least transmission angle",
-    passes: "passes a dead point",
-    lengths: { crank: "Crank length", coupler: "Coupler length", rocker: "Rocker length", ground: "Ground length" },
-    noDefects: "No defects: it takes the poses in order, without a dead point.",
-    excluded: (kind: string, n: number) => `${n} by ${kind}`,
-    left: (kinds: string) => `Left out: ${kinds}.`,
-    take: "Take it",
-    takeHint: "Write this four-bar into the case, with bodies, pins, driver and a motion",
-    taken: (k: number) => `The case contains four-bar ${k}.`,
-    run: "Run it",
-    occupied: (name: string) => `The case already has ${name}, which the four-bar would replace.`,
-    occupiedHint: "Rename it, or begin with New.",
-  },
+  slopes,
+  exercise,
+  design,
   measures: {
     title: "Measures",
     add: "Measure a quantity, such as C.force",

@@ -101,9 +101,7 @@ def test_a_relative_tolerance_of_zero_is_refused_with_a_remedy(tmp_path: Path) -
         ("hints = [", "hint = [", "hints"),
     ],
 )
-def test_faults_are_named_with_their_place(
-    old: str, new: str, reason: str, tmp_path: Path
-) -> None:
+def test_faults_are_named_with_their_place(old: str, new: str, reason: str, tmp_path: Path) -> None:
     path = tmp_path / "case.toml"
     path.write_text(CRANK.read_text("utf-8").replace(old, new, 1), "utf-8")
     done = kempe("check", path)

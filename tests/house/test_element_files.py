@@ -11,8 +11,9 @@ from house.places import CORE, PACKAGE, ROOT
 LIST = CORE / "elements" / "mod.rs"
 GENERATED = "@generated"
 
-#: Sources that write entries of a case, as users do: the spring by which a page pulls at a body.
-WRITERS = {ROOT / "bindings" / "web" / "src" / "live.rs"}
+#: Sources that write entries of a case, as users do: the spring by which a page pulls at a body,
+#: and the linkage that a synthesis has found.
+WRITERS = {ROOT / "bindings" / "web" / "src" / name for name in ("live.rs", "synthesis.rs")}
 
 #: Types whose names, or whose `type`, are also words of mechanics, allowed where they name no type.
 WORDS = {

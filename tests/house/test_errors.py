@@ -68,9 +68,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "all_dyads": lambda: _core.all_dyads([], 0, None, 1, 0, ["pin"], "pose"),
     "dyads_with_end": lambda: _core.dyads_with_end([], "pin", []),
     "pairs_of_dyads": lambda: _core.pairs_of_dyads(2, None, 0),
-    "four_bars": lambda: _core.four_bars(
-        [(0.0, 0.0), (1.0, 0.0)], [0.0, 1.0], (None, None), 1, 0
-    ),
+    "four_bars": lambda: _core.four_bars([(0.0, 0.0), (1.0, 0.0)], [0.0, 1.0], (None, None), 1, 0),
     "ranked_linkages": lambda: _core.ranked_linkages(
         np.zeros((0, 8)), [], False, (False, None, None, None, 0), False, False
     ),

@@ -101,6 +101,9 @@ pub fn four_bars(
 /// least transmission angles over a turn and at the positions, what is wrong, and the angles of the crank.
 type Candidate = (usize, bool, bool, bool, f64, f64, Vec<String>, Vec<f64>);
 
+/// Candidates, best first, and numbers of linkages by defect or limit.
+type RankedCandidates = (Vec<Candidate>, Vec<(String, usize)>);
+
 /// Candidates, best first, and the numbers of linkages that each defect or limit excludes.
 ///
 /// `linkages` has (o, a, b, end) of each as pairs of numbers; the end is the ground pivot of the rocker, or the
@@ -114,7 +117,7 @@ pub fn ranked_linkages(
     limits: GivenLimits,
     either: bool,
     complete: bool,
-) -> PyResult<(Vec<Candidate>, Vec<(String, usize)>)> {
+) -> PyResult<RankedCandidates> {
     guard("ranked_linkages", || {
         let (tell, transmission_angle, grashof, within, way) = limits;
         let grashof = match grashof.as_deref() {

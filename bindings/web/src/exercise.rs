@@ -6,7 +6,7 @@ use crate::loaded::Loaded;
 use crate::typed::typed;
 use kempe::analyses::assemble::Request;
 use kempe::analyses::readings;
-use kempe::case::exercise::{drawn, filled, Drawn};
+use kempe::case::exercise::{drawn, filled, DrawnValue};
 use kempe::model::Value as Written;
 use kempe::{assemble, build};
 use serde_json::{json, Value};
@@ -20,7 +20,7 @@ const ZERO: f64 = 1e-12;
 pub struct Exercise<'a> {
     loaded: &'a Loaded,
     seed: u64,
-    values: Vec<Drawn>,
+    values: Vec<DrawnValue>,
 }
 
 /// The answer to a question in SI units, its unit, and the largest error that counts as right.
@@ -125,7 +125,7 @@ impl<'a> Exercise<'a> {
 
     /// The changes of the text that give the mechanism the values of this variant.
     pub fn changes(&self) -> Value {
-        let value = |one: &Drawn| match one.shown.contains(' ') {
+        let value = |one: &DrawnValue| match one.shown.contains(' ') {
             true => json!({ "path": ["parameters", one.name], "value": one.shown }),
             false => json!({ "path": ["parameters", one.name], "value": one.value }),
         };
@@ -137,7 +137,7 @@ impl<'a> Exercise<'a> {
     /// The answer to a question.
     pub fn key(&self, name: &str) -> Result<Key, Fault> {
         let question = self.question(name)?;
-        let of = |one: &Drawn| (one.name.clone(), one.value);
+        let of = |one: &DrawnValue| (one.name.clone(), one.value);
         let parameters: Vec<(String, f64)> = self.values.iter().map(of).collect();
         let analysis = text(&self.loaded.case.exercise, "analysis");
         let at = entry(question, "at");
@@ -168,7 +168,7 @@ impl<'a> Exercise<'a> {
         Ok(readings::of_state(&model, &state, &[quantity])[0])
     }
 
-    /// Whether an answer is right: `{ right, value }` with its value in SI units.
+    /// Whether an answer is correct: `{ right, value }` with its value in SI units.
     pub fn checked(&self, name: &str, given: &str) -> Result<Value, Fault> {
         let question = self.question(name)?;
         let given = Written::Text(given.trim().to_string());

@@ -8,7 +8,7 @@ use crate::model::{Problem, Value};
 
 /// A value of a parameter in a variant.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Drawn {
+pub struct DrawnValue {
     /// The parameter.
     pub name: String,
     /// Its value in SI units and rad.
@@ -18,7 +18,7 @@ pub struct Drawn {
 }
 
 /// The values of the random parameters of a case for a seed. The seed 0 gives the values of the file, and so none.
-pub fn drawn(case: &Case, seed: u64) -> Result<Vec<Drawn>, Problem> {
+pub fn drawn(case: &Case, seed: u64) -> Result<Vec<DrawnValue>, Problem> {
     let Some(Value::Table(ranges)) = entry(&case.exercise, "parameters") else {
         return Ok(Vec::new());
     };
@@ -47,13 +47,13 @@ pub fn drawn(case: &Case, seed: u64) -> Result<Vec<Drawn>, Problem> {
             _ => (1.0, ""),
         };
         let shown = format!("{} {unit}", digits(x)).trim_end().to_string();
-        found.push(Drawn { name: name.clone(), value: x * factor, shown });
+        found.push(DrawnValue { name: name.clone(), value: x * factor, shown });
     }
     Ok(found)
 }
 
 /// A text in which `{name}` of each parameter is its value in a variant.
-pub fn filled(case: &Case, text: &str, values: &[Drawn]) -> String {
+pub fn filled(case: &Case, text: &str, values: &[DrawnValue]) -> String {
     let mut out = text.to_string();
     for (name, written) in &case.definition.parameters {
         let drawn = values.iter().find(|one| one.name == *name).map(|one| one.shown.clone());

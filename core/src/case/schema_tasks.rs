@@ -3,8 +3,7 @@
 use serde_json::Value;
 
 use super::json_literal::json;
-use super::schema_parts::{closed, described, object};
-use super::schema_requests::{by_any_name, texts, with_unit};
+use super::schema_parts::{by_any_name, closed, described, object, texts, with_unit};
 use super::tasks::{DEFECTS, DIRECTIONS, FAMILIES, FREEDOMS, TASKS};
 
 /// A task and the limits of the linkages that solve it.

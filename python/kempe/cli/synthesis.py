@@ -67,27 +67,13 @@ def synthesis(  # noqa: PLR0917 - typer uses the annotations of options and argu
     from kempe.base import files
     from kempe.plot import save
     from kempe.plot.synthesis import synthesis_pages
-    from kempe.loading import load
-    from kempe.synthesis import from_case, from_file
 
     with document(as_json) as content:
         source = Path(task) if file is None else file
         folder = files.checked_path(output or Path("out") / stem(source) / "synthesis", "write")
-        given = {
-            "transmission_angle": transmission_angle,
-            "grashof": grashof or None,
-            "defects": "tell" if tell else None,
-            "family": family,
-            "seed": seed,
-        }
-        options: dict[str, Any] = {key: of for key, of in given.items() if of is not None}
-        if file is not None:
-            found = from_file(task, file, **options)
-        elif task in TASKS:
-            hint = f"write kempe synthesis {task} FILE.csv, or the file of a case"
-            raise ModelError(f"the task '{task}' needs a file", hint=hint)
-        else:
-            found = from_case(load(source), **options)
+        given: dict[str, Any] = {"transmission_angle": transmission_angle, "family": family}
+        given |= {"defects": "tell" if tell else None, "grashof": grashof or None, "seed": seed}
+        found = _found(task, file, {key: of for key, of in given.items() if of is not None})
         if rank is not None:
             found = found.ranked(rank)
         console = answers(silent=as_json)
@@ -102,6 +88,19 @@ def synthesis(  # noqa: PLR0917 - typer uses the annotations of options and argu
             for path in written:
                 console.print(Text(f"  {path}"))
         content.update({**_summary(found), "files": [str(path) for path in written]})
+
+
+def _found(task: str, file: Path | None, options: dict[str, Any]) -> Found:
+    """The linkages for the task of a CSV file, or of a case in place of the task."""
+    from kempe.loading import load
+    from kempe.synthesis import from_case, from_file
+
+    if file is not None:
+        return from_file(task, file, **options)
+    if task in TASKS:
+        hint = f"write kempe synthesis {task} FILE.csv, or the file of a case"
+        raise ModelError(f"the task '{task}' needs a file", hint=hint)
+    return from_case(load(Path(task)), **options)
 
 
 def _row(number: int, one: Candidate) -> list[str]:

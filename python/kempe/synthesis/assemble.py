@@ -93,7 +93,7 @@ def limits(
 def pairs_of(first: Dyads, second: Dyads | None, seed: int) -> NDArray[np.int64]:
     """Pairs of places in two lists of dyads, (2, n); in one list if there is no second."""
     found = _core.pairs_of_dyads(len(first), None if second is None else len(second), seed)
-    return np.array(found, dtype=np.int64).reshape(-1, 2).T
+    return np.asarray(np.array(found, dtype=np.int64).reshape(-1, 2).T)
 
 
 def moved(at: Complexes, places: Complexes, angles: Floats) -> Complexes:
@@ -184,7 +184,7 @@ def collected(
     asked = (
         limits.tell,
         limits.transmission_angle,
-        grashof if isinstance(grashof, str) or not grashof else "holds",
+        grashof if isinstance(grashof, str) else ("holds" if grashof else None),
         None if limits.within is None else limits.within.tolist(),
         limits.way,
     )

@@ -124,12 +124,15 @@ function Limits() {
         onChange={(on) => setOption("grashof", on || undefined)}
       />
       <div class="field">
-        <label for="least-transmission">{words.transmission}</label>
+        <label for="least-transmission" title={words.transmissionHint}>
+          {words.transmission}
+        </label>
         <input
           id="least-transmission"
           type="text"
           autocomplete="off"
           value={angle === undefined ? "" : String(angle)}
+          title={words.transmissionHint}
           placeholder={words.none}
           onChange={(event) => set(event.currentTarget.value)}
         />

@@ -1,6 +1,7 @@
 // The questions of a case with their answers.
 import { useState } from "preact/hooks";
 import type { Question } from "../core/protocol";
+import { readable } from "../draw/numbers";
 import { Button, Section } from "../panels/parts";
 import { texts } from "../texts";
 import {
@@ -98,7 +99,7 @@ function Asked({ one, number }: { one: Question; number: number }) {
           onInput={(event) => setTyped(event.currentTarget.value)}
           onKeyDown={(event) => event.key === "Enter" && void check(one.name, event.currentTarget.value)}
         />
-        <span class="unit">{one.unit === "1" ? "" : one.unit}</span>
+        <span class="unit">{one.unit === "1" ? "" : readable(one.unit)}</span>
         <Button
           label={busy ? words.checking : words.check}
           onClick={() => void check(one.name, typed)}

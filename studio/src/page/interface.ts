@@ -1,6 +1,6 @@
 // window.kempe: the page for programs, as studio/README.md describes it.
 
-import type { Found, Loaded, Ran, Solved } from "../core/protocol";
+import type { Found, Loaded, Ran, Requests, Solved } from "../core/protocol";
 import { diagrams } from "../diagrams/shown";
 import { enter } from "../modes/modes";
 import { course, run, valuesOf } from "../modes/read";
@@ -19,6 +19,7 @@ export interface Interface {
   values(names: string[]): Promise<{ t: number[]; units: string[]; rows: number[][] }>;
   diagrams(output?: number): Promise<object | null>;
   synthesis(): Promise<Solved>;
+  slopes(measure: string): Promise<Requests["slopes"]["reply"]>;
   screen(point: Point): Promise<Point>;
   settled(): Promise<void>;
 }
@@ -48,6 +49,7 @@ export const kempe: Interface = {
   },
   settled,
   diagrams,
+  slopes: async (measure) => (await send("slopes", { measure })).ok,
   synthesis: async () => (await send("synthesis", {})).ok,
   quantity: async (name) => (await send("quantity", { name })).ok,
   async values(names) {
