@@ -1,5 +1,4 @@
-// All English texts of the studio and its worker, with drawingTexts.ts, and with playerTexts.ts those of the player. Names of types, their
-// fields and their descriptions come from the catalogue.
+// All English texts of the studio and its worker, with designTexts.ts, drawingTexts.ts and playerTexts.ts. Names of types come from the catalogue.
 import { coreTexts } from "./coreTexts";
 import { design, exercise, slopes } from "./designTexts";
 import { atPlace, edit, labels, machines, place, stems } from "./drawingTexts";

@@ -6,7 +6,7 @@ import { CoreError, Superseded } from "../core/transport";
 import { type Point, rounded } from "../plane/points";
 import { change } from "../store/document";
 import { report, send } from "../store/session";
-import { fitWith, view } from "../store/sheet";
+import { fitWith } from "../store/sheet";
 import { announce, loads, mode, openings, tree, units } from "../store/state";
 import { texts } from "../texts";
 
@@ -43,14 +43,11 @@ effect(() => {
 /** The opening of the case to which the answer belongs. */
 let opened = -1;
 
-/** Show all poses of a case that was opened, if some are outside the sheet. */
+/** Show all poses of a case that was opened. */
 function showAll(found: Solved): void {
   active.value = null;
   const at = found.poses.map(([x, y]): Point => [x, y]);
-  const outside = at
-    .map((one) => view.toScreen(one))
-    .some(([x, y]) => x < 0 || y < 0 || x > view.width || y > view.height);
-  if (outside) fitWith([...at, ...Object.values(found.candidates[0]?.points ?? {})]);
+  if (at.length > 1) fitWith([...at, ...Object.values(found.candidates[0]?.points ?? {})]);
 }
 
 /** Ask the core for the four-bars; a newer request replaces one that waits. */
