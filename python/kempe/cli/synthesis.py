@@ -35,7 +35,7 @@ def synthesis(  # noqa: PLR0917 - typer uses the annotations of options and argu
     task: Annotated[
         str,
         typer.Argument(
-            metavar="TASK", help="motion, path or function; or a case with a section [synthesis]."
+            metavar="TASK", help="motion, path or function; or a case with a section \\[synthesis]."
         ),
     ],
     file: Annotated[
