@@ -141,6 +141,19 @@ def dark(page: Page) -> None:
     save(page, "studio_dark")
 
 
+def design(page: Page) -> None:
+    """Three poses of a coupler, and the first four-bar that takes them."""
+    poses = '[-0.4, 0.2, "0 deg"], [0, 0.4, "30 deg"], [0.4, 0.3, "75 deg"]'
+    page.evaluate(
+        "text => kempe.load(text)",
+        f'kempe = 1\n\n[synthesis]\ntask = "motion"\nposes = [{poses}]\n',
+    )
+    enter(page, "design")
+    wait(page, "document.querySelector('#take') !== null")
+    page.get_by_role("button", name="Zoom in (+)").click()
+    save(page, "studio_design")
+
+
 def main() -> None:
     """Write all pictures."""
     path = os.environ.get("CHROMIUM") or shutil.which("chromium")
@@ -151,6 +164,7 @@ def main() -> None:
         guide(page)
         move(opened(browser, DESKTOP))
         read(opened(browser, DESKTOP))
+        design(opened(browser, DESKTOP))
         phone = opened(browser, PHONE, device_scale_factor=2, has_touch=True, is_mobile=True)
         on_phone(phone)
         dark(opened(browser, DESKTOP, color_scheme="dark"))

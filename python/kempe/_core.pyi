@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from kempe._core_exchange import *  # noqa: F403
 from kempe._core_sweeps import *  # noqa: F403
+from kempe._core_synthesis import *  # noqa: F403
 
 _F = NDArray[np.float64]
 _Progress = Callable[[float], None] | None
@@ -66,6 +67,11 @@ class Case:
 
     def write(self, format: str) -> str:  # noqa: A002
         """The case as "toml" or "json" text."""
+
+    def variant(
+        self, seed: int, texts: list[str]
+    ) -> tuple[list[tuple[str, float, str]], list[str]]:
+        """Random parameters (name, SI value, text) for a seed, and texts with these values."""
 
     def place(self, path: str) -> tuple[str, int, int] | None:
         """File, line and column of the entry at a path; None without a file or an entry."""

@@ -227,29 +227,3 @@ class SteppedRun:
     def save(self) -> SavedRun: ...
     def restore(self, saved: SavedRun) -> None: ...
     def last_part(self) -> Run: ...
-
-def dyads(conditions: list[list[float]]) -> list[list[float]] | None:
-    """All dyads (1, w, g, u, v), up to a factor, that satisfy four linear conditions.
-
-    None if the conditions are dependent.
-    """
-
-def fit_coupler(
-    targets: list[list[float]],
-    weights: tuple[float, float],
-    linkage: list[float],
-    positions: list[list[float]],
-    free: list[bool],
-    steps: int,
-) -> tuple[list[float], list[list[float]], float]:
-    """A four-bar near a start whose coupler fits points: linkage, positions, sum of squares."""
-
-def fit_pairs(
-    targets: list[list[float]],
-    closing: float,
-    linkage: list[float],
-    positions: list[list[float]],
-    free: list[bool],
-    steps: int,
-) -> tuple[list[float], list[list[float]], float]:
-    """A four-bar near a start whose rocker fits pairs of angles, as ``fit_coupler``."""

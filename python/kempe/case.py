@@ -39,9 +39,9 @@ from kempe.results.solution import Solution
 from kempe.results.state import State
 
 FORMATS = {".toml": "toml", ".json": "json"}
-#: The sections that ask for many runs or for slopes, and an example of one.
-_REQUESTS, _FORM = ("sweep", "gradient", "optimize", "fit"), "{'variables': …, 'measures': […]}"
-
+#: The sections that ask for runs, slopes, linkages or answers, and an example.
+_REQUESTS = ("sweep", "gradient", "optimize", "fit", "synthesis", "exercise")
+_FORM = "{'variables': …, 'measures': […]}"
 #: The class of each result that is not a motion, by the type of the analysis.
 _RESULTS: dict[str, Callable[[Record], Result]] = {
     "equilibrium": EquilibriumResult,
@@ -62,10 +62,7 @@ class Case:
         start: a ``Start``, or a mapping with ``set`` and ``guess``.
         analyses: ``Dynamics`` or other analyses, in order; or a mapping of names to entries as in
             a file.
-        sweep: the default sweep of the case, as in a file: ``{"variables": …, "measures": …}``.
-        gradient: the default gradient, as in a file: ``{"measures": […], "variables": […]}``.
-        optimize: the default optimisation, as in a file: ``{"variables": …, "minimize": …}``.
-        fit: the default fit, as in a file: ``{"columns": …, "parameters": …}``.
+        sweep, gradient, optimize, fit, synthesis, exercise: these sections, as in a file.
 
     Attributes:
         model: the mechanism.
@@ -89,13 +86,15 @@ class Case:
         *,
         optimize: Mapping[str, Any] | None = None,
         fit: Mapping[str, Any] | None = None,
+        synthesis: Mapping[str, Any] | None = None,
+        exercise: Mapping[str, Any] | None = None,
     ) -> None:
         if not isinstance(model, Model):
             raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) makes one")
         self.model = model
         self._start = read_start(start)
         self._entries = read_entries(analyses)
-        asked = zip(_REQUESTS, (sweep, gradient, optimize, fit), strict=True)
+        asked = zip(_REQUESTS, (sweep, gradient, optimize, fit, synthesis, exercise), strict=True)
         self._asked = {key: plain(mapping(of or {}, key, _FORM), key) for key, of in asked}
         self._core().check(model.compile().core)
 
@@ -137,6 +136,16 @@ class Case:
     def fit(self) -> Mapping[str, Any]:
         """The fit of the file, for ``kp.fit(case, data)``; a copy."""
         return copy.deepcopy(self._asked["fit"])
+
+    @property
+    def synthesis(self) -> Mapping[str, Any]:
+        """The task that ``kp.synthesis.from_case(case)`` solves; a copy."""
+        return copy.deepcopy(self._asked["synthesis"])
+
+    @property
+    def exercise(self) -> Mapping[str, Any]:
+        """The questions of the file, for ``kp.Exercise(case)``; a copy."""
+        return copy.deepcopy(self._asked["exercise"])
 
     def tree(self) -> dict[str, Any]:
         """A copy of the case as nested mappings, structured as a file.

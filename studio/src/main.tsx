@@ -21,6 +21,7 @@ import "./style/page.css";
 import "./style/drawing.css";
 import "./style/parts.css";
 import "./style/panels.css";
+import "./style/design.css";
 import "./style/phone.css";
 
 const FIRST = "four_bar";

@@ -1,6 +1,6 @@
-// All English texts of the studio and its worker, with drawingTexts.ts, and with playerTexts.ts those of the player. Names of types, their
-// fields and their descriptions come from the catalogue. Each bundle contains only the parts that it imports.
+// All English texts of the studio and its worker, with designTexts.ts, drawingTexts.ts and playerTexts.ts. Names of types come from the catalogue.
 import { coreTexts } from "./coreTexts";
+import { design, exercise, slopes } from "./designTexts";
 import { atPlace, edit, labels, machines, place, stems } from "./drawingTexts";
 import { ARROWS_ON, forces, ON_ALL } from "./playerTexts";
 
@@ -24,12 +24,13 @@ export const texts = {
   starting: "The core starts …",
   core: coreTexts,
   modesName: "Mode",
-  modes: { edit: "Edit", move: "Move", live: "Live", read: "Read" },
+  modes: { edit: "Edit", move: "Move", live: "Live", read: "Read", design: "Design" },
   modeHints: {
     edit: "Draw and change the geometry (1)",
     move: "Drag the mechanism; every length is kept (2)",
     live: "Let it move under its forces (3)",
     read: "Run an analysis and read its results (4)",
+    design: "Place poses, and choose a linkage that takes them (5)",
   },
   playback: { play: "Play", pause: "Pause", speed: "Speed", time: "Time" },
   files: {
@@ -111,6 +112,9 @@ export const texts = {
     angle: "angle",
     absent: "–",
   },
+  slopes,
+  exercise,
+  design,
   measures: {
     title: "Measures",
     add: "Measure a quantity, such as C.force",
@@ -335,7 +339,7 @@ export const texts = {
     title: "Keys and help",
     licences: "Licences of the software in this page",
     keys: [
-      ["1 2 3 4", "edit, move, live, read"],
+      ["1 2 3 4 5", "edit, move, live, read, design"],
       ["ctrl Z, ctrl shift Z", "undo, redo"],
       ["ctrl S, ctrl shift S, ctrl O", "save, save in another file, open"],
       ["ctrl C, ctrl V", "copy and paste the selected body"],
@@ -362,6 +366,7 @@ export const texts = {
       move: "Drag the mechanism; arrow keys push the selected body.",
       live: "Hold a body with the mouse, or press the arrow keys, to pull at it; space pauses.",
       read: "The slider below the drawing shows any time of the run; curves follow.",
+      design: "Click two to five places that the coupler must take; drag the end of an arm to turn a pose.",
       two: "Type digits after the first click for an exact length; begin at a point to pin the bar there.",
       many: "Click all points of the body; enter or a double click finishes it.",
       one: "Click where the mass is; on a point it is pinned there.",

@@ -45,6 +45,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "is_reserved": lambda: _core.is_reserved("t"),
     "Case": lambda: _core.Case("kempe = 1", "toml", None),
     "Case.tree": CASE.tree,
+    "Case.variant": lambda: CASE.variant(1, []),
     "Case.write": lambda: CASE.write("json"),
     "Case.model": lambda: CASE.model("{}"),
     "Case.place": lambda: CASE.place("joints.A"),
@@ -63,7 +64,14 @@ CALLS: dict[str, Callable[[], object]] = {
     "line_at": lambda: _core.line_at(MODEL, "C", "rocker"),
     "transmitting": lambda: _core.transmitting(MODEL),
     "compliance": lambda: _core.compliance(MODEL, T, Q, V, Z, "rocker.C", ["crank.angle"]),
-    "dyads": lambda: _core.dyads([]),
+    "dyad_conditions": lambda: _core.dyad_conditions([(0.0, 0.0)], [0.0]),
+    "all_dyads": lambda: _core.all_dyads([], 0, None, 1, 0, ["pin"], "pose"),
+    "dyads_with_end": lambda: _core.dyads_with_end([], "pin", []),
+    "pairs_of_dyads": lambda: _core.pairs_of_dyads(2, None, 0),
+    "four_bars": lambda: _core.four_bars([(0.0, 0.0), (1.0, 0.0)], [0.0, 1.0], (None, None), 1, 0),
+    "ranked_linkages": lambda: _core.ranked_linkages(
+        np.zeros((0, 8)), [], False, (False, None, None, None, 0), False, False
+    ),
     "fit_coupler": lambda: _core.fit_coupler([], (1.0, 1.0), [], [], [], 1),
     "fit_pairs": lambda: _core.fit_pairs([], 1.0, [], [], [], 1),
     "Record.number": lambda: RECORD.number("count"),

@@ -17,6 +17,7 @@ ROWS = (
     ("loading",),
     ("design", "draw", "report", "stepping", "studio", "sweeps", "templates"),
     ("fmu", "synthesis"),
+    ("exercise", "synthesis"),
     ("plot",),
     ("lab_report", "notebook"),
     ("cli",),

@@ -87,7 +87,7 @@ class Person:
         self.any(".side input[type=checkbox], .bar input[type=checkbox], #undo:not([disabled])")
 
     def mode(self) -> None:
-        self.any("#mode-edit, #mode-move, #mode-live, #mode-read, #mode-edit")
+        self.any("#mode-edit, #mode-move, #mode-live, #mode-read, #mode-design, #mode-edit")
 
     def key(self) -> None:
         self.one.page.keyboard.press(self.chance.choice(KEYS))

@@ -5,7 +5,7 @@ import itertools
 import kempe as kp
 import numpy as np
 import pytest
-from kempe.synthesis.defects import KINDS, judged
+from kempe import _core
 from sizes import count
 from synthesis.linkages import Complexes, Floats, FourBar, drawn, found_in, rows
 
@@ -171,12 +171,12 @@ def test_defects_are_those_of_a_continuation() -> None:
             turn = np.exp(1j * (angles - angles[0]))
             a, b = (places + (pin - places[0]) * turn for pin in (a, b))
             for first, pin, other, last in ((o, a, b, d), (d, b, a, o)):  # either as the crank
-                ends = np.array([first]), np.array([last])
-                known = judged(ends[0], pin[None], other[None], ends[1])
-                if known.here[0] < 0.1:  # a dead point between two steps of the continuation
+                numbers = np.array([[first, *pin, *other, last]]).view(np.float64)
+                asked = (True, None, None, None, 0)
+                (known,), _ = _core.ranked_linkages(numbers, [0.0], False, asked, False, True)
+                if known[5] < 0.1:  # a dead point between two steps of the continuation
                     continue
-                found = known.places[:, 0]
-                told = next((kind for kind, at in zip(KINDS, found, strict=True) if at >= 0), "")
+                told = known[6][0].split(":")[0] if known[6] else ""
                 assert told == traced(first, pin, other, last), one
                 seen[told] = seen.get(told, 0) + 1
     assert min(seen.get(kind, 0) for kind in ("", "order", "branch", "circuit")) > 3, seen

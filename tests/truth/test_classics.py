@@ -45,7 +45,8 @@ def test_a_classic_runs_and_says_in_one_sentence_what_it_is(path: Path) -> None:
     name, _, sentence = kp.load(path).model.title.partition(": ")
     assert 0 < len(name) < 30
     assert 5 < len(sentence.split()) < 25
-    assert path.stem == "walker" or path.stat().st_size < 2000
+    long = path.stem == "walker" or path.stem.endswith("_exercise")
+    assert long or path.stat().st_size < 2000
 
 
 def test_chebyshev() -> None:

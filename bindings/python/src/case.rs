@@ -20,6 +20,9 @@ pub struct PyCase {
     origin: Option<String>,
 }
 
+/// Values of parameters, and texts that contain them.
+type Variant = (Vec<(String, f64, String)>, Vec<String>);
+
 fn format_named(py: Python<'_>, name: &str) -> PyResult<Format> {
     match name {
         "toml" => Ok(Format::Toml),
@@ -66,6 +69,19 @@ impl PyCase {
     /// The case as text in the format "toml" or "json".
     fn write(&self, py: Python<'_>, format: &str) -> PyResult<String> {
         guard("Case.write", || Ok(case::write(&self.case, format_named(py, format)?)))
+    }
+
+    /// The values of the random parameters of the exercise for a seed: name, value, and the value for people; and texts
+    /// with the values of all parameters.
+    fn variant(&self, py: Python<'_>, seed: u64, texts: Vec<String>) -> PyResult<Variant> {
+        guard("Case.variant", || {
+            let found = case::exercise::drawn(&self.case, seed);
+            let values = found.map_err(|problem| self.raise(py, Kind::Model, &[problem]))?;
+            let fill = |text: &String| case::exercise::filled(&self.case, text, &values);
+            let texts = texts.iter().map(fill).collect();
+            let values = values.into_iter().map(|one| (one.name, one.value, one.shown)).collect();
+            Ok((values, texts))
+        })
     }
 
     /// The case with the points of a table that a file contains.

@@ -108,7 +108,12 @@ fn add_drawing_and_sweeps(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(drawing::view_around, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::place_texts, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::text_width, module)?)?;
-    module.add_function(wrap_pyfunction!(synthesis::dyads, module)?)?;
+    module.add_function(wrap_pyfunction!(synthesis::dyad_conditions, module)?)?;
+    module.add_function(wrap_pyfunction!(synthesis::all_dyads, module)?)?;
+    module.add_function(wrap_pyfunction!(synthesis::dyads_with_end, module)?)?;
+    module.add_function(wrap_pyfunction!(synthesis::pairs_of_dyads, module)?)?;
+    module.add_function(wrap_pyfunction!(synthesis::four_bars, module)?)?;
+    module.add_function(wrap_pyfunction!(synthesis::ranked_linkages, module)?)?;
     module.add_function(wrap_pyfunction!(synthesis::fit_coupler, module)?)?;
     module.add_function(wrap_pyfunction!(synthesis::fit_pairs, module)?)?;
     Ok(())

@@ -1,17 +1,182 @@
 //! Synthesis of linkages: lists of numbers in, lists of numbers out.
 
+use crate::errors::{Failure, Kind};
 use crate::guard::guard;
-use kempe_synthesis::{least_squares, Coupler, Fitted, Pairs, Problem};
+use kempe::math::Complex;
+use kempe_synthesis::{
+    conditions, least_squares, ranked, with_end, Choices, Coupler, Dyad, End, Fitted, Grashof,
+    Judged, Limits, Linkage, Output, Pairs, Poses, Problem, Ranked, Refused, TYPES,
+};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// Linkage, positions and sum of squares.
 type Found = (Vec<f64>, Vec<[f64; 2]>, f64);
 
-/// All dyads with four linear conditions; None if these are dependent.
+/// The conditions of poses on dyads: one for each pose after the first.
 #[pyfunction]
-#[pyo3(signature = (conditions))]
-pub fn dyads(conditions: Vec<[f64; 7]>) -> PyResult<Option<Vec<[f64; 7]>>> {
-    guard("dyads", || Ok(conditions.first_chunk::<4>().and_then(kempe_synthesis::dyads)))
+#[pyo3(signature = (places, angles))]
+pub fn dyad_conditions(places: Vec<[f64; 2]>, angles: Vec<f64>) -> PyResult<Vec<Dyad>> {
+    guard("dyad_conditions", || {
+        if places.is_empty() || places.len() != angles.len() {
+            return Err(PyValueError::new_err("places and angles of at least one pose"));
+        }
+        Ok(conditions(&complexes(&places), &angles))
+    })
+}
+
+/// All dyads with linear conditions, or samples of them, and whether these are all.
+#[pyfunction]
+#[pyo3(signature = (rows, poses, pivot, samples, seed, ends, what))]
+pub fn all_dyads(
+    rows: Vec<Dyad>,
+    poses: usize,
+    pivot: Option<[f64; 2]>,
+    samples: usize,
+    seed: u64,
+    ends: Vec<String>,
+    what: String,
+) -> PyResult<(Vec<Dyad>, bool)> {
+    guard("all_dyads", || {
+        let ends = ends.iter().map(|end| end_of(end)).collect();
+        let pivot = pivot.map(complex);
+        let choices = Choices { samples, seed, ends, pivot, what };
+        found(kempe_synthesis::all_dyads(&rows, poses.min(rows.len()), &choices))
+    })
+}
+
+/// The dyads with given ends; the shortest one for each end that has any.
+#[pyfunction]
+#[pyo3(signature = (rows, end, at))]
+pub fn dyads_with_end(rows: Vec<Dyad>, end: String, at: Vec<[f64; 2]>) -> PyResult<Vec<Dyad>> {
+    guard("dyads_with_end", || {
+        let one = |at: &[f64; 2]| with_end(&rows, end_of(&end), complex(*at), None);
+        Ok(at.iter().filter_map(one).collect())
+    })
+}
+
+/// Pairs of places in two lists; in one list without a second.
+#[pyfunction]
+#[pyo3(signature = (first, second, seed))]
+pub fn pairs_of_dyads(
+    first: usize,
+    second: Option<usize>,
+    seed: u64,
+) -> PyResult<Vec<(usize, usize)>> {
+    guard("pairs_of_dyads", || Ok(kempe_synthesis::pairs(first, second, seed)))
+}
+
+/// Four-bars through two to five poses: (o, a, b, d) of each as pairs of numbers, the errors, and whether these are all.
+#[pyfunction]
+#[pyo3(signature = (places, angles, pivots, samples, seed))]
+pub fn four_bars(
+    py: Python<'_>,
+    places: Vec<[f64; 2]>,
+    angles: Vec<f64>,
+    pivots: [Option<[f64; 2]>; 2],
+    samples: usize,
+    seed: u64,
+) -> PyResult<(Py<PyArray1<f64>>, Vec<f64>, bool)> {
+    guard("four_bars", || {
+        if !(2..=5).contains(&places.len()) || places.len() != angles.len() {
+            return Err(PyValueError::new_err("places and angles of two to five poses"));
+        }
+        let (places, pivots) = (complexes(&places), pivots.map(|at| at.map(complex)));
+        let task = Poses { places, angles, pivots, samples, seed };
+        let (linkages, complete) = found(kempe_synthesis::four_bars(&task))?;
+        let mut flat = Vec::new();
+        for (one, _) in &linkages {
+            let Output::Rocker(d) = one.output else { continue };
+            let all = [one.o].into_iter().chain(one.a.iter().copied());
+            let all = all.chain(one.b.iter().copied()).chain([d]);
+            flat.extend(all.flat_map(|z| [z.re, z.im]));
+        }
+        let errors = linkages.iter().map(|(_, error)| *error).collect();
+        Ok((flat.into_pyarray(py).unbind(), errors, complete))
+    })
+}
+
+/// A candidate: its number, whether its rocker is the crank, whether its crank turns fully, Grashof's condition, the
+/// least transmission angles over a turn and at the positions, what is wrong, and the angles of the crank.
+type Candidate = (usize, bool, bool, bool, f64, f64, Vec<String>, Vec<f64>);
+
+/// Candidates, best first, and numbers of linkages by defect or limit.
+type RankedCandidates = (Vec<Candidate>, Vec<(String, usize)>);
+
+/// Candidates, best first, and the numbers of linkages that each defect or limit excludes.
+///
+/// `linkages` has (o, a, b, end) of each as pairs of numbers; the end is the ground pivot of the rocker, or the
+/// direction of the slide.
+#[pyfunction]
+#[pyo3(signature = (linkages, errors, slides, limits, either, complete))]
+pub fn ranked_linkages(
+    linkages: PyReadonlyArray2<'_, f64>,
+    errors: Vec<f64>,
+    slides: bool,
+    limits: GivenLimits,
+    either: bool,
+    complete: bool,
+) -> PyResult<RankedCandidates> {
+    guard("ranked_linkages", || {
+        let (tell, transmission_angle, grashof, within, way) = limits;
+        let grashof = match grashof.as_deref() {
+            None => Grashof::Any,
+            Some(kind) => {
+                TYPES.iter().position(|one| *one == kind).map_or(Grashof::Holds, Grashof::Is)
+            }
+        };
+        let limits = Limits { tell, transmission_angle, grashof, within, way };
+        let rows = linkages.as_array();
+        let width = rows.ncols() / 2;
+        if rows.nrows() != errors.len() || width < 4 || width % 2 != 0 {
+            return Err(PyValueError::new_err("o, a, b, end and an error of each linkage"));
+        }
+        let of = |row: usize| {
+            let at = |k: usize| Complex::new(rows[[row, 2 * k]], rows[[row, 2 * k + 1]]);
+            let middle = width / 2;
+            let end = at(width - 1);
+            let output = if slides { Output::Slide(end) } else { Output::Rocker(end) };
+            let (a, b) = ((1..middle).map(at).collect(), (middle..width - 1).map(at).collect());
+            Linkage { o: at(0), a, b, output }
+        };
+        let all: Vec<_> = errors.iter().enumerate().map(|(k, error)| (of(k), *error)).collect();
+        let (kept, excluded) = ranked(&all, &limits, either, complete);
+        Ok((kept.into_iter().map(candidate).collect(), excluded))
+    })
+}
+
+/// Whether candidates with defects are kept, the least transmission angle, what Grashof's condition must be, the limits
+/// of the pivots, and the direction of the crank.
+type GivenLimits = (bool, Option<f64>, Option<String>, Option<[[f64; 2]; 2]>, i32);
+
+fn candidate(of: Ranked) -> Candidate {
+    let Ranked { index, reversed, judged, defects, crank_angles } = of;
+    let Judged { turns, grashof, least, here, .. } = judged;
+    (index, reversed, turns, grashof, least, here, defects, crank_angles)
+}
+
+fn end_of(name: &str) -> End {
+    if name == "pin" {
+        End::Pin
+    } else {
+        End::Pivot
+    }
+}
+
+fn complex([re, im]: [f64; 2]) -> Complex {
+    Complex::new(re, im)
+}
+
+fn complexes(all: &[[f64; 2]]) -> Vec<Complex> {
+    all.iter().copied().map(complex).collect()
+}
+
+/// A result, or the `ModelError` of a task without one.
+fn found<T>(of: Result<T, Refused>) -> PyResult<T> {
+    of.map_err(|Refused { message, hint }| {
+        Python::attach(|py| Failure::new(Kind::Model, message).hint(hint).raise(py))
+    })
 }
 
 /// A four-bar near a start whose coupler fits points, poses or crank angles.

@@ -5,10 +5,12 @@
 #![deny(unsafe_code)]
 
 mod catalogue;
+mod columns;
 mod convert;
 mod dragged;
 mod drawn;
 mod editing;
+mod exercise;
 mod fault;
 mod findings;
 mod instant;
@@ -21,6 +23,8 @@ mod pose;
 mod readiness;
 mod run;
 mod session;
+mod synthesis;
+mod typed;
 
 pub use session::Session;
 

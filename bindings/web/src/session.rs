@@ -1,10 +1,12 @@
 //! The data that a page works with: a text, its mechanism, a motion in progress and the last run.
 
 use crate::catalogue::catalogue;
+use crate::columns::slopes;
 use crate::convert::Fields;
 use crate::dragged::drag;
 use crate::drawn::{display, scene};
 use crate::editing::edit;
+use crate::exercise::Exercise;
 use crate::fault::Fault;
 use crate::live::Live;
 use crate::loaded::{load, without_drivers, Loaded};
@@ -13,6 +15,7 @@ use crate::named;
 use crate::pose::pose;
 use crate::readiness::readiness;
 use crate::run::Ran;
+use crate::synthesis::Task;
 use kempe::analyses::assemble::{self, Request};
 use kempe::analyses::readings;
 use kempe::analyses::record::Outcome;
@@ -80,9 +83,30 @@ impl Session {
                 Ok(json!({ "numbers": self.numbers.len() }))
             }
             "instant" => self.last_run()?.instant(fields.number("at")?),
+            "slopes" => slopes(self.loaded()?, fields),
+            "exercise" => Ok(self.exercise(fields)?.described()),
+            "variant" => Ok(self.exercise(fields)?.changes()),
+            "answer" => {
+                let (name, given) = (fields.text("question")?, fields.text("given")?);
+                self.exercise(fields)?.checked(name, given)
+            }
+            "synthesis" => Ok(self.task()?.described()),
+            "candidate" => self.task()?.solved()?.taken(fields.number("choice")? as usize),
             "values" => self.values(&fields.texts("names")?),
             other => Err(Fault::new(format!("there is no request '{other}'"))),
         }
+    }
+
+    /// The exercise of the case, for the seed of the request or of the case.
+    fn exercise(&self, fields: &Fields<'_>) -> Result<Exercise<'_>, Fault> {
+        let seed = fields.get("seed").map(|_| fields.number("seed")).transpose()?;
+        let loaded = self.loaded.as_ref().ok_or_else(no_mechanism)?;
+        Exercise::read(loaded, seed.map(|seed| seed as u64))
+    }
+
+    /// The task of the section `[synthesis]`.
+    fn task(&mut self) -> Result<Task, Fault> {
+        Task::read(&self.loaded()?.case.synthesis)
     }
 
     fn loaded(&mut self) -> Result<&mut Loaded, Fault> {

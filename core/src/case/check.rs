@@ -5,7 +5,8 @@ use super::names::{self, Namespace};
 use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
 use super::values::{number, pair, word, wrong};
-use super::{columns, fields, problems, start, sweep, tables, Case, Format, FORMAT_VERSION};
+use super::{columns, fields, problems, start, sweep, tables, tasks};
+use super::{Case, Format, FORMAT_VERSION};
 use crate::analyses;
 use crate::elements::{catalogue, Group, Table as Declaration};
 use crate::expression::suggest::{closest, did_you_mean};
@@ -15,7 +16,7 @@ use crate::model::{table_fields, Entry, Problem, Value};
 /// Words for the key `redundancy`.
 pub(super) const REDUNDANCY: [&str; 2] = ["refuse", "allow"];
 
-const SECTIONS: [&str; 17] = [
+const SECTIONS: [&str; 19] = [
     "kempe",
     "title",
     "gravity",
@@ -33,6 +34,8 @@ const SECTIONS: [&str; 17] = [
     "gradient",
     "optimize",
     "fit",
+    "synthesis",
+    "exercise",
 ];
 
 /// The case that a tree contains, with the problems of its structure and the number of further problems that are not
@@ -102,6 +105,8 @@ fn section(
         "gradient" => case.gradient = columns::gradient(report, node, root),
         "optimize" => case.optimize = problems::optimize(report, node, root),
         "fit" => case.fit = problems::fit(report, node, root),
+        "synthesis" => case.synthesis = tasks::synthesis(report, node, root),
+        "exercise" => case.exercise = tasks::exercise(report, node, root),
         _ => unknown(report, key),
     }
 }

@@ -34,6 +34,10 @@ pub struct Case {
     pub optimize: Vec<(String, Value)>,
     /// The fit: columns of data, and parameters; empty without one.
     pub fit: Vec<(String, Value)>,
+    /// The synthesis: a task and limits of the linkages; empty without one.
+    pub synthesis: Vec<(String, Value)>,
+    /// The exercise: questions and random parameters; empty without one.
+    pub exercise: Vec<(String, Value)>,
 }
 
 /// Coordinates and rates for the assembly; keys are `body.coordinate`.

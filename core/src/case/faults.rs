@@ -1,6 +1,6 @@
 //! The faults of a case that can be found only with its model.
 
-use super::{columns, Case};
+use super::{columns, exercise, tasks, Case};
 use crate::analyses::{self, assemble, measures};
 use crate::math::Listed;
 use crate::model::{Model, Problem, Value};
@@ -32,6 +32,8 @@ impl Case {
         ];
         let of_sections =
             sections.into_iter().flat_map(|one| columns::faults(model, one, measures, &kinds));
-        found.chain(of_sections).list()
+        let of_exercise = tasks::faults(model, &self.exercise, measures, &kinds);
+        let of_exercise = of_exercise.into_iter().chain(exercise::unit_faults(self));
+        found.chain(of_sections).chain(of_exercise).list()
     }
 }

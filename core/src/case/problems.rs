@@ -72,7 +72,7 @@ pub(super) fn fit(report: &mut ProblemList, node: &Node, root: &Table) -> Vec<(S
 }
 
 /// A table of names, each with a value.
-fn named(
+pub(super) fn named(
     report: &mut ProblemList,
     node: &Node,
     example: &str,
@@ -108,13 +108,13 @@ fn loads(report: &mut ProblemList, node: &Node) {
     }
 }
 
-fn with_unit(report: &mut ProblemList, node: &Node) {
+pub(super) fn with_unit(report: &mut ProblemList, node: &Node) {
     if !matches!(node.data, Data::Number(_) | Data::Text(_)) {
         wrong(report, node, "a number, or a number with a unit such as \"0.5 deg\"");
     }
 }
 
-fn text(report: &mut ProblemList, node: &Node, what: &str) {
+pub(super) fn text(report: &mut ProblemList, node: &Node, what: &str) {
     if !matches!(node.data, Data::Text(_)) {
         wrong(report, node, what);
     }

@@ -30,3 +30,18 @@ pub(super) fn closed(properties: Map<String, Value>, besides: Value) -> Value {
         "then": besides,
     })
 }
+
+/// A number, or a text with a unit.
+pub(super) fn with_unit() -> Value {
+    json!({ "anyOf": [{ "type": "number" }, { "type": "string" }] })
+}
+
+/// A table with any names that is not empty.
+pub(super) fn by_any_name(of: Value) -> Value {
+    json!({ "type": "object", "additionalProperties": of, "minProperties": 1 })
+}
+
+/// A list of texts that is not empty.
+pub(super) fn texts() -> Value {
+    json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 })
+}

@@ -4,7 +4,8 @@ use serde_json::Value;
 
 use super::json_literal::json;
 use super::problems::{FREE, LOSSES, METHODS};
-use super::schema_parts::{closed, described, object};
+use super::schema_parts::{by_any_name, closed, described, object, texts, with_unit};
+use super::schema_tasks;
 use super::sweep::{DESIGNS, SCALES};
 
 /// The words about `analysis`.
@@ -18,6 +19,8 @@ pub(super) fn add(sections: &mut Value) {
     sections["gradient"] = of_columns(json!({ "variables": variables }), words);
     sections["optimize"] = optimize();
     sections["fit"] = fit();
+    sections["synthesis"] = schema_tasks::synthesis();
+    sections["exercise"] = schema_tasks::exercise();
 }
 
 /// Variables with their values, measures, and the design of a sweep.
@@ -106,25 +109,10 @@ fn fit() -> Value {
     )
 }
 
-/// A number, or a text with a unit.
-fn with_unit() -> Value {
-    json!({ "anyOf": [{ "type": "number" }, { "type": "string" }] })
-}
-
-/// A table with any names that is not empty.
-fn by_any_name(of: Value) -> Value {
-    json!({ "type": "object", "additionalProperties": of, "minProperties": 1 })
-}
-
 /// A section with variables, measures and an analysis.
 fn of_columns(fields: Value, words: &str) -> Value {
     let mut fields = object(fields);
     fields.insert("measures".into(), described(texts(), "Statistics such as pin.max."));
     fields.insert("analysis".into(), described(json!({ "type": "string" }), ANALYSIS));
     described(closed(fields, json!({ "required": ["variables", "measures"] })), words)
-}
-
-/// A list of texts that is not empty.
-fn texts() -> Value {
-    json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 })
 }

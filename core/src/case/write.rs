@@ -48,6 +48,8 @@ fn tree(case: &Case) -> Vec<(String, Value)> {
         ("gradient", table(&case.gradient)),
         ("optimize", table(&case.optimize)),
         ("fit", table(&case.fit)),
+        ("synthesis", table(&case.synthesis)),
+        ("exercise", table(&case.exercise)),
     ];
     let empty = |value: &Value| matches!(value, Value::Table(fields) if fields.is_empty());
     let sections = sections.into_iter().filter_map(|(key, value)| Some((key.to_string(), value?)));

@@ -21,6 +21,8 @@ from kempe.cli.check import EXAMPLES as CHECK_EXAMPLES
 from kempe.cli.check import check as check_command
 from kempe.cli.convert import EXAMPLES as CONVERT_EXAMPLES
 from kempe.cli.convert import convert as convert_command
+from kempe.cli.exercise import EXAMPLES as EXERCISE_EXAMPLES
+from kempe.cli.exercise import exercise as exercise_command
 from kempe.cli.failure import exit_code, print_error, print_json
 from kempe.cli.fit import EXAMPLES as FIT_EXAMPLES
 from kempe.cli.fit import fit as fit_command
@@ -84,6 +86,7 @@ app.command("optimize", epilog=OPTIMIZE_EXAMPLES)(optimize_command)
 app.command("fit", epilog=FIT_EXAMPLES)(fit_command)
 app.command("synthesis", epilog=SYNTHESIS_EXAMPLES)(synthesis_command)
 app.command("cam", epilog=CAM_EXAMPLES)(cam_command)
+app.command("exercise", epilog=EXERCISE_EXAMPLES)(exercise_command)
 app.command("studio", epilog=STUDIO_EXAMPLES)(studio_command)
 app.command("convert", epilog=CONVERT_EXAMPLES)(convert_command)
 app.command("new", epilog=NEW_EXAMPLES)(new_command)

@@ -12,6 +12,7 @@ from rich.text import Text
 from kempe.cli.arguments import AsJson, stem
 from kempe.cli.console import answers, figure, heading, table
 from kempe.cli.failure import document
+from kempe.errors import ModelError
 
 if TYPE_CHECKING:
     from kempe.synthesis import Candidate, Found
@@ -21,19 +22,32 @@ EXAMPLES = """Examples:
   kempe synthesis motion poses.csv
 
   kempe synthesis path points.csv --transmission-angle "40 deg" --rank drive.effort.peak
+
+  kempe synthesis flap.toml
 """
+#: Tasks that are in CSV files.
+TASKS = ("motion", "path", "function")
 #: Candidates in the printed table.
 _SHOWN = 10
 
 
 def synthesis(  # noqa: PLR0917 - typer uses the annotations of options and arguments
-    task: Annotated[str, typer.Argument(metavar="TASK", help="motion, path or function.")],
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="CSV with units in its headers.")],
+    task: Annotated[
+        str,
+        typer.Argument(
+            metavar="TASK", help="motion, path or function; or a case with a section \\[synthesis]."
+        ),
+    ],
+    file: Annotated[
+        Path | None, typer.Argument(metavar="FILE", help="CSV with units in its headers.")
+    ] = None,
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", help="Folder for results; default out/<FILE>/synthesis."),
     ] = None,
-    family: Annotated[str, typer.Option(help="four_bar; slider_crank for motion.")] = "four_bar",
+    family: Annotated[
+        str | None, typer.Option(help="four_bar, the default; slider_crank for motion.")
+    ] = None,
     tell: Annotated[bool, typer.Option("--tell", help="Keep candidates with defects.")] = False,
     transmission_angle: Annotated[
         str | None, typer.Option(help="Least transmission angle, such as '40 deg'.")
@@ -44,20 +58,22 @@ def synthesis(  # noqa: PLR0917 - typer uses the annotations of options and argu
     rank: Annotated[
         str | None, typer.Option(help="Sort by a column of sweeps, such as drive.effort.peak.")
     ] = None,
-    seed: Annotated[int, typer.Option(help="Seed of samples and starts.")] = 0,
+    seed: Annotated[
+        int | None, typer.Option(help="Seed of samples and starts; 0 by default.")
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Find linkages for a task; write a table, the best case and a figure."""
     from kempe.base import files
     from kempe.plot import save
     from kempe.plot.synthesis import synthesis_pages
-    from kempe.synthesis import from_file
 
     with document(as_json) as content:
-        folder = files.checked_path(output or Path("out") / stem(file) / "synthesis", "write")
-        options: dict[str, Any] = {"transmission_angle": transmission_angle, "grashof": grashof}
-        options |= {"defects": "tell" if tell else "exclude", "family": family, "seed": seed}
-        found = from_file(task, file, **options)
+        source = Path(task) if file is None else file
+        folder = files.checked_path(output or Path("out") / stem(source) / "synthesis", "write")
+        given: dict[str, Any] = {"transmission_angle": transmission_angle, "family": family}
+        given |= {"defects": "tell" if tell else None, "grashof": grashof or None, "seed": seed}
+        found = _found(task, file, {key: of for key, of in given.items() if of is not None})
         if rank is not None:
             found = found.ranked(rank)
         console = answers(silent=as_json)
@@ -72,6 +88,19 @@ def synthesis(  # noqa: PLR0917 - typer uses the annotations of options and argu
             for path in written:
                 console.print(Text(f"  {path}"))
         content.update({**_summary(found), "files": [str(path) for path in written]})
+
+
+def _found(task: str, file: Path | None, options: dict[str, Any]) -> Found:
+    """The linkages for the task of a CSV file, or of a case in place of the task."""
+    from kempe.loading import load
+    from kempe.synthesis import from_case, from_file
+
+    if file is not None:
+        return from_file(task, file, **options)
+    if task in TASKS:
+        hint = f"write kempe synthesis {task} FILE.csv, or the file of a case"
+        raise ModelError(f"the task '{task}' needs a file", hint=hint)
+    return from_case(load(Path(task)), **options)
 
 
 def _row(number: int, one: Candidate) -> list[str]:

@@ -22,7 +22,7 @@ from kempe.synthesis.found import Found
 from kempe.synthesis.function import function
 from kempe.synthesis.motion import motion
 from kempe.synthesis.path import path
-from kempe.synthesis.read import from_file
+from kempe.synthesis.read import from_case, from_file
 from kempe.synthesis.slider import SliderCrank
 
 __all__ = [
@@ -33,6 +33,7 @@ __all__ = [
     "burmester",
     "cognates",
     "dyads",
+    "from_case",
     "from_file",
     "function",
     "limits",

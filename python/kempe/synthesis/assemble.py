@@ -9,24 +9,19 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from kempe import _core
 from kempe.base.arguments import explained
-from kempe.base.arrays import Floats
+from kempe.base.arrays import Floats, fixed
 from kempe.model.given import value
 from kempe.model.values import Number, refuse
 from kempe.synthesis import tasks
-from kempe.synthesis.candidate import TYPES, Candidate, masses_of, unwrapped
-from kempe.synthesis.defects import KINDS, Flags, Judged, judged, judged_slides
+from kempe.synthesis.candidate import TYPES, Candidate, masses_of
 from kempe.synthesis.dyads import Dyads
 from kempe.synthesis.found import Found
 from kempe.synthesis.slider import SliderCrank
 from kempe.synthesis.tasks import Complexes
 
-#: Candidates of a task with free choices: those kept, and pairs of dyads that are judged.
-KEPT, _PAIRS = 100, 20_000
-T = TypeVar("T", "Bars", "Judged")
 B = TypeVar("B", bound="Bars")
-#: A larger transmission angle is no better, rad.
-_GOOD = np.pi / 4.0
 _DIRECTIONS = {"ccw": 1, "cw": -1, None: 0}
 
 
@@ -98,14 +93,8 @@ def limits(
 
 def pairs_of(first: Dyads, second: Dyads | None, seed: int) -> NDArray[np.int64]:
     """Pairs of places in two lists of dyads, (2, n); in one list if there is no second."""
-    if second is None:
-        places = np.array(np.triu_indices(len(first), 1))
-    else:
-        places = np.indices((len(first), len(second))).reshape(2, -1)
-    if places.shape[1] > _PAIRS:
-        random = np.random.default_rng(seed)
-        places = places[:, random.choice(places.shape[1], _PAIRS, replace=False)]
-    return np.asarray(places, dtype=np.int64)
+    found = _core.pairs_of_dyads(len(first), None if second is None else len(second), seed)
+    return np.asarray(np.array(found, dtype=np.int64).reshape(-1, 2).T)
 
 
 def moved(at: Complexes, places: Complexes, angles: Floats) -> Complexes:
@@ -133,17 +122,19 @@ class Bars:
     frame: Floats
     error: Floats
 
-    def reversed(self) -> Bars:
-        """The rocker as the crank."""
-        return Bars(self.d, self.b, self.a, self.o, self.p, self.frame, self.error)
-
     def taken(self: B, places: Any) -> B:
         """Some of them."""
         return type(self)(*(getattr(self, name)[places] for name in self.__dataclass_fields__))
 
-    def judged(self, way: int) -> Judged:
-        """Their defects with the first link as the crank."""
-        return judged(self.o, self.a, self.b, self.d, way)
+    def numbers(self) -> Floats:
+        """Both pivots and both pins at all positions as the core takes them, (n, 4 n_positions)."""
+        all_ = np.column_stack([self.o, self.a, self.b, self.end]).astype(np.complex128)
+        return np.ascontiguousarray(all_).view(np.float64)
+
+    @property
+    def end(self) -> Complexes:
+        """The ground pivot of the rocker."""
+        return self.d
 
     def shapely(self: B) -> B:
         """Those without links or grounds of no length."""
@@ -167,9 +158,10 @@ class Slides(Bars):
 
     slide: Complexes
 
-    def judged(self, way: int) -> Judged:
-        """Their defects."""
-        return judged_slides(self.o, self.a, self.b, self.slide, way)
+    @property
+    def end(self) -> Complexes:
+        """The direction of the slide."""
+        return self.slide
 
     def sides(self) -> list[Complexes]:
         """Crank and coupler at the first position."""
@@ -189,88 +181,38 @@ def collected(
         task: places of the point.
         poses: the poses, if there are any.
     """
-    bars = bars.shapely()
-    found = bars.judged(limits.way)
-    if either:
-        back = bars.reversed()
-        other = back.judged(limits.way)
-        better = _worth(other) > _worth(found)
-        bars, found = _either(bars, back, better), _either(found, other, better)
-    wrong = _wrong(bars, found, limits)
-    bad = np.any(list(wrong.values()), axis=0)
-    excluded = {kind: int(of.sum()) for kind, of in wrong.items() if of.any()}
-    size = found.lengths.max(axis=1)
-    exact = np.where(bars.error < 1e-9 * size, 0.0, bars.error)
-    least, here = (-np.round(np.minimum(x, _GOOD), 2) for x in (found.least, found.here))
-    order = np.lexsort((size, here, least, exact, found.count))
-    if not limits.tell:
-        order = order[~bad[order]]
-    else:
-        excluded = {}
-    kept = order if complete else order[:KEPT]
-    made = [_candidate(bars, found, k, limits, wrong) for k in kept.tolist()]
-    return Found(made, complete, excluded, task, poses)
+    grashof = limits.grashof
+    asked = (
+        limits.tell,
+        limits.transmission_angle,
+        grashof if isinstance(grashof, str) else ("holds" if grashof else None),
+        None if limits.within is None else limits.within.tolist(),
+        limits.way,
+    )
+    slides = isinstance(bars, Slides)
+    found, excluded = _core.ranked_linkages(
+        bars.numbers(), bars.error.tolist(), slides, asked, either, complete
+    )
+    made = [_candidate(bars, of, limits) for of in found]
+    return Found(made, complete, dict(excluded), task, poses)
 
 
-def _either(one: T, other: T, better: Flags) -> T:
-    """The second of two where it is better."""
-
-    def chosen(name: str) -> Any:
-        x, y = getattr(one, name), getattr(other, name)
-        across = name == "places"  # defects are the first axis there
-        return np.where(better if across or x.ndim == 1 else better[:, None], y, x)
-
-    return type(one)(*(chosen(name) for name in one.__dataclass_fields__))
-
-
-def _worth(of: Judged) -> Floats:
-    """Fewer defects first, then a crank that turns fully, then the transmission angle."""
-    return np.asarray(-10.0 * of.count + of.turns + 0.1 * of.least + 0.01 * of.here)
-
-
-def _wrong(bars: Bars, of: Judged, limits: Limits) -> dict[str, Flags]:
-    """Which candidates have each defect, or are beyond each limit."""
-    wrong = {kind: places >= 0 for kind, places in zip(KINDS, of.places, strict=True)}
-    least, asked, within = limits.transmission_angle, limits.grashof, limits.within
-    if least is not None:
-        wrong["transmission angle"] = of.least < least
-    if asked is not None:
-        shortest = of.lengths.argmin(axis=1)
-        fits = True if asked is True else shortest == TYPES.index(asked)
-        wrong["grashof"] = ~(of.grashof & fits)
-    if within is not None:
-        low, high = within.T
-        outside = [
-            (at.real < low[0]) | (at.real > high[0]) | (at.imag < low[1]) | (at.imag > high[1])
-            for at in (bars.o, bars.d)
-        ]
-        wrong["pivots"] = outside[0] | outside[1]
-    return wrong
-
-
-def _candidate(
-    bars: Bars, of: Judged, k: int, limits: Limits, wrong: Mapping[str, Flags]
-) -> Candidate:
-    places = dict(zip(KINDS, of.places[:, k].tolist(), strict=True))
-    texts = [
-        f"{kind}: at position {places[kind] + 1}" if kind in places else f"{kind}: beyond the limit"
-        for kind, flags in wrong.items()
-        if flags[k]
-    ]
-    angles = np.angle(bars.a[k] - bars.o[k])
+def _candidate(bars: Bars, of: _core.RankedLinkage, limits: Limits) -> Candidate:
+    k, reverse, turns, grashof, least, _, defects, crank_angles = of
     pins = (bars.o[k], bars.a[k, 0], bars.b[k, 0], bars.d[k], bars.p[k, 0])
-    turns = bool(of.turns[k])
+    if reverse:
+        pins = (pins[3], pins[2], pins[1], pins[0], pins[4])
     slide = (complex(bars.slide[k]),) if isinstance(bars, Slides) else ()
     kind: Any = SliderCrank if slide else Candidate
     made: Candidate = kind(
         tuple(complex(at) for at in pins),
         float(bars.frame[k]),
         float(bars.error[k]),
-        float(of.least[k]),
-        bool(of.grashof[k]),
+        least,
+        grashof,
         turns,
-        tuple(texts),
-        unwrapped(angles, bool(of.forward[k]), turns),
+        tuple(defects),
+        fixed(np.array(crank_angles)),
         limits.masses,
         *slide,
     )

@@ -197,12 +197,3 @@ def masses_of(given: Mapping[str, Any] | None) -> dict[str, float]:
         if not found[name] > 0.0:
             refuse(f"masses.{name}", f"{mass!r}; must be > 0")
     return found
-
-
-def unwrapped(angles: Floats, forward: bool, turns: bool) -> Floats:
-    """Crank angles that grow, or fall if not ``forward``, from position to position."""
-    sign = 1.0 if forward else -1.0
-    if not turns:
-        return fixed(np.unwrap(angles))
-    steps = (sign * np.diff(angles)) % (2.0 * np.pi)
-    return fixed(angles[0] + sign * np.concatenate([[0.0], np.cumsum(steps)]))

@@ -22,10 +22,6 @@ _SHORTEST = 1e-9
 #: Singular values that count as zero, relative to the largest, and sizes of the task within which
 #: pins of slides are.
 _SLIDE, _FAR = 1e-10, 1e3
-#: The golden angle, which spreads directions evenly.
-_GOLDEN = np.pi * (3.0 - np.sqrt(5.0))
-#: The columns of the conditions in which the ends of a dyad are.
-_COLUMN = {"pin": 1, "pivot": 3}
 
 
 @dataclass(frozen=True)
@@ -56,7 +52,7 @@ class Dyads:
 
 
 class Conditions:
-    """The linear conditions of poses on (1, w, g, u, v); see ``synthesis/src/dyads.rs``.
+    """The linear conditions of poses on (1, w, g, u, v); see ``synthesis/src/conditions.rs``.
 
     Args:
         places: the origin of the moving frame at each pose.
@@ -67,11 +63,8 @@ class Conditions:
     def __init__(self, places: Complexes, angles: Floats, what: str = "pose") -> None:
         self.what = what
         self.origin, self.size = complex(places[0]), tasks.size(places)
-        p = (places[1:] - places[0]) / self.size
-        turn = np.exp(1j * (angles[1:] - angles[0]))
-        along = np.conj(p) * turn
-        columns = [abs(p) ** 2 / 2, along.real, -along.imag, -p.real, -p.imag]
-        self.rows = np.column_stack([*columns, 1.0 - turn.real, turn.imag])
+        rows = _core.dyad_conditions(tasks.pairs_in(places), angles.tolist())
+        self.rows = np.array(rows, dtype=np.float64).reshape(-1, 7)
 
     @staticmethod
     def line(column: int, x: float, y: float, distance: float) -> Floats:
@@ -79,10 +72,6 @@ class Conditions:
         row = np.zeros(7)
         row[0], row[column], row[column + 1] = -distance, x, y
         return row
-
-    def solved(self, more: Iterable[Floats] = ()) -> list[list[float]] | None:
-        """The real dyads with all conditions, which must be four; None if they are dependent."""
-        return _core.dyads([*self.rows.tolist(), *(row.tolist() for row in more)])
 
     def dyads(self, found: Iterable[Sequence[float]], complete: bool) -> Dyads:
         """Homogeneous numbers as dyads of the task."""
@@ -107,79 +96,20 @@ class Conditions:
         kept = ~(finite & (np.abs(pin - pivot) < _SHORTEST * (1.0 + np.abs(pin))))
         return Dyads(scaled[0][kept], scaled[1][kept], way[kept], complete)
 
-    def sampled(self, more: Floats, n: int, seed: int, kinds: str) -> Dyads:
-        """Dyads with free choices.
-
-        If one choice is free, pins or pivots lie on random lines; otherwise they have random
-        places.
-
-        Args:
-            more: further conditions, (m, 7).
-            n: number of choices.
-            seed: of the choices.
-            kinds: "pin pivot", or one of them: what is chosen.
-        """
-        random = np.random.default_rng(seed)
-        places = _scattered(n, random)
-        if len(self.rows) + len(more) <= 2:
-            near = _scattered(n, random)
-            parts = [
-                self.with_end(kind, places[k :: len(kinds.split())], more, near)
-                for k, kind in enumerate(kinds.split())
-            ]
-            return joined(parts)
-        found: list[list[float]] = []
-        for k, at in enumerate(places.tolist()):
-            column = _COLUMN[kinds.split()[k % len(kinds.split())]]
-            line = self.line(
-                column, at.real / abs(at), at.imag / abs(at), abs(at) * (-1) ** (k // 2)
-            )
-            found += self.solved([*more, line]) or []
-        return self.dyads(found, complete=False)
-
-    def with_end(
-        self, kind: str, at: Complexes, more: Floats | None = None, near: Complexes | None = None
-    ) -> Dyads:
-        """The dyads with given pins or pivots; the other end is as near as possible to a place.
+    def with_end(self, kind: str, at: Complexes, more: Floats) -> Dyads:
+        """The dyads with given pins or pivots; the shortest one where several have this end.
 
         Args:
             kind: "pin" or "pivot".
             at: their places, relative to the task: (place - origin) / size.
             more: further conditions, (m, 7).
-            near: preferred places of the other ends, (n,), where they are not determined.
         """
-        rows = self.rows if more is None else np.vstack([self.rows, more])
-        r = rows.T[:, None, :]
-        x, y = at.real[:, None], at.imag[:, None]
-        own, other = (1, 3) if kind == "pin" else (3, 1)
-        sign = 1.0 if kind == "pin" else -1.0
-        columns = (
-            r[other] + x * r[5] + sign * y * r[6],
-            r[other + 1] + y * r[5] - sign * x * r[6],
-        )
-        matrix = np.stack(columns, axis=2)
-        right = -(r[0] + x * r[own] + y * r[own + 1])
-        start = np.zeros(len(at), dtype=complex) if near is None else near[: len(at)]
-        start = np.column_stack([start.real, start.imag])[:, :, None]
-        inverse = np.linalg.pinv(matrix, rcond=1e-11)
-        end = start + inverse @ (right[:, :, None] - matrix @ start)
-        left = abs(matrix @ end - right[:, :, None]).max(axis=(1, 2))
-        ends = np.where(left < 1e-9, end[:, 0, 0] + 1j * end[:, 1, 0], np.inf)
-        w, g = (at, ends) if kind == "pin" else (ends, at)
-        kept = np.isfinite(ends) & (abs(w - g) > _SHORTEST * (1.0 + abs(w)))
-        nowhere = np.full(int(kept.sum()), np.nan + 0j)
-        exact = len(rows) >= 2 and near is None
-        pin, pivot = (self.origin + self.size * np.asarray(end[kept]) for end in (w, g))
-        return Dyads(np.asarray(pin), np.asarray(pivot), nowhere, exact)
+        rows = np.vstack([self.rows, more])
+        found = _core.dyads_with_end(rows.tolist(), kind, tasks.pairs_in(at))
+        return self.dyads(found, complete=len(rows) >= 2)
 
     def all(
-        self,
-        n: int,
-        seed: int,
-        *,
-        more: Floats | None = None,
-        pivot: complex | None = None,
-        kinds: str = "pin pivot",
+        self, n: int, seed: int, *, more: Floats | None = None, kinds: str = "pin pivot"
     ) -> Dyads:
         """All dyads if their conditions determine them, otherwise samples.
 
@@ -187,33 +117,33 @@ class Conditions:
             n: number of samples.
             seed: of the samples.
             more: further conditions, (m, 7).
-            pivot: a fixed ground pivot.
             kinds: what is sampled: "pin pivot", or one of them.
 
         Raises:
-            ModelError: the conditions contradict each other or are dependent.
+            ModelError: the conditions are dependent.
         """
-        more = np.zeros((0, 7)) if more is None else more
-        count, poses = len(self.rows) + len(more), f"{len(self.rows) + 1} {self.what}s"
-        if pivot is not None:
-            at = (pivot - self.origin) / self.size
-            if len(self.rows) >= 2:
-                found = self.with_end("pivot", np.array([at]))
-                if len(self.rows) > 2 and not len(found):
-                    hint = f"leave out a {self.what}, or let the pivot be free"
-                    raise ModelError(f"{poses} and a fixed pivot contradict each other", hint=hint)
-                return found
-            near = _scattered(n, np.random.default_rng(seed))
-            return self.with_end("pivot", np.full(n, at), near=near)
-        if count < 4:
-            return self.sampled(more, n, seed, kinds)
-        solved = self.solved(more)
-        if solved is None:
-            raise ModelError(
-                f"the conditions of the {poses} depend on each other: {self._dependent()}",
-                hint=f"leave out a {self.what}, or change its angle",
-            )
-        return self.dyads(solved, complete=True)
+        rows = self.rows if more is None else np.vstack([self.rows, more])
+        found, complete = _core.all_dyads(
+            rows.tolist(), len(self.rows), None, n, seed, kinds.split(), self.what
+        )
+        return self.dyads(found, complete)
+
+    def with_pivot(self, pivot: complex, n: int, seed: int) -> Dyads:
+        """The dyads with a fixed ground pivot, or samples of them for two poses.
+
+        Args:
+            pivot: its place.
+            n: number of samples.
+            seed: of the samples.
+
+        Raises:
+            ModelError: the poses and the pivot contradict each other.
+        """
+        at = (pivot - self.origin) / self.size
+        found, complete = _core.all_dyads(
+            self.rows.tolist(), len(self.rows), (at.real, at.imag), n, seed, ["pivot"], self.what
+        )
+        return self.dyads(found, complete)
 
     def slides(self, n: int, seed: int) -> Dyads:
         """Pins that move along straight lines of ground, and the directions of these lines.
@@ -230,20 +160,6 @@ class Conditions:
         found = self.dyads(numbers[: n if len(null) else 0], complete=len(null) <= 1)
         kept = np.isfinite(found.pin) & (abs(found.pin - self.origin) < _FAR * self.size)
         return Dyads(found.pin[kept], found.pivot[kept], found.way[kept], found.complete)
-
-    def _dependent(self) -> str:
-        """Which pose follows from the others."""
-        rank = np.linalg.matrix_rank(self.rows, tol=1e-9)
-        for k in range(len(self.rows), 0, -1):
-            if np.linalg.matrix_rank(np.delete(self.rows, k - 1, axis=0), tol=1e-9) == rank:
-                return f"{self.what} {k + 1} adds none to the others"
-        return "a limit follows from the poses"
-
-
-def _scattered(n: int, random: np.random.Generator) -> Complexes:
-    """Places around the task: directions are even, and few are far away."""
-    angle = np.arange(n) * _GOLDEN + random.uniform(0.0, 2.0 * np.pi)
-    return np.asarray(np.exp(1j * angle) * np.exp(random.normal(0.0, 1.0, n)))
 
 
 def joined(parts: Sequence[Dyads]) -> Dyads:

@@ -7,13 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from kempe import _core
 from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.errors import ModelError
 from kempe.model.values import Number
 from kempe.synthesis import assemble, tasks
 from kempe.synthesis.assemble import Bars, Slides
-from kempe.synthesis.dyads import Conditions, Dyads
+from kempe.synthesis.dyads import Conditions
 from kempe.synthesis.fit import Task, distinct
 from kempe.synthesis.found import Found
 from kempe.synthesis.tasks import Complexes
@@ -79,18 +80,15 @@ def _exact(
     places: Complexes, angles: Floats, fixed: Mapping[str, complex], samples: int, seed: int
 ) -> tuple[Bars, bool]:
     """Four-bars of pairs of dyads, and whether these are all."""
-    conditions = Conditions(places, angles)
-    free = conditions.all(samples, seed) if len(fixed) < 2 else None
-    sides = [
-        conditions.all(samples, seed + 1, pivot=fixed[name]) if name in fixed else free
-        for name in "OD"
-    ]
-    first, second = (None if side is None else side.of("pin") for side in sides)
-    assert first is not None and second is not None
-    _check(first, second, len(places), fixed)
-    chosen = assemble.pairs_of(first, None if not fixed else second, seed)
-    pairs = (first.pin, first.pivot), (second.pin, second.pivot)
-    return bars_of(pairs, chosen, places, angles), first.complete and second.complete
+    pivots = [(fixed[name].real, fixed[name].imag) if name in fixed else None for name in "OD"]
+    flat, error, complete = _core.four_bars(
+        tasks.pairs_in(places), angles.tolist(), (pivots[0], pivots[1]), samples, seed
+    )
+    n = len(places)
+    found = flat.view(np.complex128).reshape(len(error), 2 * n + 2)
+    a, b = found[:, 1 : n + 1], found[:, n + 1 : 2 * n + 1]
+    p, frame = np.broadcast_to(places, a.shape), np.full(len(found), angles[0])
+    return Bars(found[:, 0], a, b, found[:, -1], p, frame, np.array(error)), complete
 
 
 def bars_of(pairs: Any, chosen: Any, places: Complexes, angles: Floats) -> Bars:
@@ -112,7 +110,11 @@ def _slides(
     if len(places) > 4:
         hint = "leave out poses, or choose family='four_bar'"
         raise ModelError(f"poses: {len(places)}; slider-cranks take at most four", hint=hint)
-    cranks = conditions.all(samples, seed, pivot=pivot).of("pin")
+    cranks = (
+        conditions.all(samples, seed)
+        if pivot is None
+        else conditions.with_pivot(pivot, samples, seed)
+    ).of("pin")
     slides = conditions.slides(samples, seed + 1)
     if not len(slides) or not len(cranks):
         hint = "leave out or move a pose, or let the pivot be free"
@@ -152,15 +154,3 @@ def _fitted(task: Task, seed: int) -> Bars:
     starts.sort(key=lambda start: start[0])
     fitted = [task.fitted(task.start_of(bars, k))[0] for _, bars, k in starts[:_STARTS]]
     return distinct(task.bars(fitted))
-
-
-def _check(first: Dyads, second: Dyads, n: int, fixed: Mapping[str, complex]) -> None:
-    """Refuse poses that no four-bar takes."""
-    for name, side in zip("OD", (first, second), strict=True):
-        if name in fixed and not len(side):
-            hint = f"move the pivot {name}, let it be free, or leave out a pose"
-            raise ModelError(f"no dyad with the pivot {name} takes the {n} poses", hint=hint)
-    if not fixed and len(first) < 2:
-        count = f"{len(first) or 'no'} real dyad{'' if len(first) == 1 else 's'}"
-        hint = "leave out or move a pose"
-        raise ModelError(f"poses: no four-bar takes all {n}: they have {count}", hint=hint)

@@ -1,9 +1,9 @@
-"""Tasks of synthesis in CSV files."""
+"""Tasks of synthesis in CSV files and in cases."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,6 +14,9 @@ from kempe.synthesis.found import Found
 from kempe.synthesis.function import function
 from kempe.synthesis.motion import motion
 from kempe.synthesis.path import path as path_of
+
+if TYPE_CHECKING:
+    from kempe.case import Case
 
 #: Columns of each task with their units; those in the second row may be missing.
 _COLUMNS: dict[str, tuple[dict[str, str], dict[str, str]]] = {
@@ -55,3 +58,35 @@ def from_file(task: str, path: str | Path, **options: Any) -> Found:
         return function([tuple(row) for row in rows], **options)
     angles = found.get("angle")
     return path_of(rows, angles=None if angles is None else angles.tolist(), **options)
+
+
+#: The argument of each task that has no default.
+_LISTS = {"motion": "poses", "path": "points", "function": "pairs"}
+
+
+@explained
+def from_case(case: Case, **options: Any) -> Found:
+    """Solve the task of the section ``[synthesis]`` of a case.
+
+    The candidates are those that the studio shows for this section. ``choice`` of the section is
+    the number, from 1, of the candidate whose bodies the case has.
+
+    Args:
+        case: the case.
+        options: replace arguments of the section, such as ``defects="tell"``.
+
+    Raises:
+        ModelError: the case has no such section, or as for the function of its task.
+    """
+    section = {**case.synthesis, **options}
+    if not case.synthesis:
+        hint = 'write [synthesis] with task = "motion" and poses, or use kp.synthesis.motion'
+        raise ModelError("the case has no section [synthesis]", hint=hint)
+    section.pop("choice", None)
+    task = str(section.pop("task"))
+    given = section.pop(_LISTS[task])
+    if task == "motion":
+        return motion(given, **section)
+    if task == "function":
+        return function([tuple(row) for row in given], **section)
+    return path_of(given, **section)

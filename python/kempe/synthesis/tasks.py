@@ -84,6 +84,11 @@ def size(places: Complexes) -> float:
     return float(np.abs(places - places[0]).max()) or 1.0
 
 
+def pairs_in(places: Complexes) -> list[tuple[float, float]]:
+    """Places as the core takes them."""
+    return list(zip(places.real.tolist(), places.imag.tolist(), strict=True))
+
+
 def turns(angles: Floats) -> Floats:
     """Cosine and sine, (n, 2)."""
     return np.column_stack([np.cos(angles), np.sin(angles)])

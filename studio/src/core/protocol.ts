@@ -172,6 +172,52 @@ export interface Instant {
   loads: Load[] | null;
 }
 
+/** A four-bar that takes the poses of a task. */
+export interface Candidate {
+  /** At the first pose, m. */
+  points: Record<"O" | "A" | "B" | "D" | "P", Point>;
+  /** The angle of the moving frame at the first pose, rad. */
+  frame: number;
+  /** Crank, coupler, rocker and ground, m. */
+  lengths: [number, number, number, number];
+  type: string;
+  grashof: boolean;
+  turns: boolean;
+  transmission_angle: number;
+  error: number;
+  defects: string[];
+  crank_angles: number[];
+}
+
+/** A question of a case, with the values of its variant. */
+export interface Question {
+  name: string;
+  text: string;
+  /** The unit of an answer without one. */
+  unit: string;
+  hints: string[];
+  points: number;
+}
+
+/** The section [exercise] of a case. */
+export interface Exercise {
+  seed: number;
+  /** Whether it has random parameters. */
+  random: boolean;
+  text: string;
+  parameters: { name: string; value: number; shown: string }[];
+  questions: Question[];
+}
+
+/** The answer to the section [synthesis]. */
+export interface Solved {
+  poses: Triple[];
+  refused: { message: string; hint?: string | null } | null;
+  complete: boolean;
+  excluded: { kind: string; count: number }[];
+  candidates: Candidate[];
+}
+
 /** The static part of a scene; docs/scene.md describes all of it. */
 export interface Scene {
   bounds: [number, number, number, number];
@@ -211,6 +257,15 @@ export interface Requests {
     send: { analysis?: string; t_end?: number; output_step?: number; over?: string; range?: [string, string] };
     reply: Ran | Found;
   };
+  exercise: { send: { seed?: number }; reply: Exercise };
+  variant: { send: { seed: number }; reply: { changes: Change[] } };
+  answer: { send: { question: string; given: string }; reply: { right: boolean; value: number } };
+  slopes: {
+    send: { measure: string; analysis?: string };
+    reply: { value: number; unit: string; slopes: { name: string; slope: number | null; remark: string | null }[] };
+  };
+  synthesis: { send: object; reply: Solved };
+  candidate: { send: { choice: number }; reply: { changes: Change[] } };
   instant: { send: { at: number }; reply: Instant };
   frames: { send: object; reply: object };
   values: { send: { names: string[] }; reply: { units: string[] } };

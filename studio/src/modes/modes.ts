@@ -1,5 +1,6 @@
 // Changing between the modes.
 import { effect } from "@preact/signals";
+import { design } from "../design/handler";
 import { scaling, shifting } from "../store/backdrop";
 import { note } from "../store/note";
 import { goHome, report, showPresent } from "../store/session";
@@ -18,7 +19,7 @@ export function handler(): Handler {
   if (mode.value === "edit" && scaling.value) return scale;
   if (mode.value === "edit" && shifting.value) return shift;
   if (mode.value === "edit") return tool.value ? place : edit;
-  return { move, live: living.live, read: reading.read }[mode.value];
+  return { move, live: living.live, read: reading.read, design }[mode.value];
 }
 
 export function enter(next: Mode): void {
@@ -26,7 +27,7 @@ export function enter(next: Mode): void {
   const before = mode.value;
   leave(before);
   mode.value = next;
-  if (next === "edit") void goHome();
+  if (next === "edit" || next === "design") void goHome();
   panel.value = next === "read" ? "results" : "properties";
   // With reduced motion, *Live* waits for Play.
   if (next === "live") void (before === "read" ? goHome() : Promise.resolve()).then(still() ? undefined : living.play);

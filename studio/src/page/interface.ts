@@ -1,6 +1,6 @@
 // window.kempe: the page for programs, as studio/README.md describes it.
 
-import type { Found, Loaded, Ran } from "../core/protocol";
+import type { Found, Loaded, Ran, Requests, Solved } from "../core/protocol";
 import { diagrams } from "../diagrams/shown";
 import { enter } from "../modes/modes";
 import { course, run, valuesOf } from "../modes/read";
@@ -18,6 +18,8 @@ export interface Interface {
   run(of?: number | string): Promise<Ran | Found | null>;
   values(names: string[]): Promise<{ t: number[]; units: string[]; rows: number[][] }>;
   diagrams(output?: number): Promise<object | null>;
+  synthesis(): Promise<Solved>;
+  slopes(measure: string): Promise<Requests["slopes"]["reply"]>;
   screen(point: Point): Promise<Point>;
   settled(): Promise<void>;
 }
@@ -47,6 +49,8 @@ export const kempe: Interface = {
   },
   settled,
   diagrams,
+  slopes: async (measure) => (await send("slopes", { measure })).ok,
+  synthesis: async () => (await send("synthesis", {})).ok,
   quantity: async (name) => (await send("quantity", { name })).ok,
   async values(names) {
     const { units, rows } = await valuesOf(names);

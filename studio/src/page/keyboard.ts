@@ -1,5 +1,7 @@
 // The keyboard. A control that has the focus keeps the keys that it needs.
 
+import { pushPose } from "../design/handler";
+import { active, removePose } from "../design/task";
 import { canPaste, pasteCopied, remove, takeCopy } from "../edit/commands";
 import { openFile, saveFile } from "../give/files";
 import { ghost } from "../guide/guide";
@@ -61,13 +63,13 @@ function copySelection(): void {
 function plain(event: KeyboardEvent): (() => void) | null {
   const { key } = event;
   if (tool.value && drawing() && /^[\d.,]$/.test(key)) return () => typeLength(key);
-  const number = ["1", "2", "3", "4"].indexOf(key);
+  const number = ["1", "2", "3", "4", "5"].indexOf(key);
   if (number >= 0) return () => enter(MODES[number]!);
   const actions: Record<string, () => void> = {
     Escape: stopAll,
     Enter: () => void finish(),
-    Delete: () => mode.value === "edit" && void remove(),
-    Backspace: () => mode.value === "edit" && void remove(),
+    Delete: removeSelected,
+    Backspace: removeSelected,
     "+": () => zoom(1.25),
     "=": () => zoom(1.25),
     "-": () => zoom(0.8),
@@ -87,9 +89,15 @@ function plain(event: KeyboardEvent): (() => void) | null {
   if (key === " " && drawsByKeys()) return () => clickCursor(suggested());
   if (step && mode.value === "move") return () => void push(...step);
   if (step && mode.value === "live") return () => void living.pullBy(...step);
+  if (step && mode.value === "design") return () => pushPose(...step);
   if (step && mode.value === "edit" && selection.value) return () => void pushSelected(...step);
   if (step && mode.value === "read" && step[0]) return () => reading.show(reading.time.value + step[0] * frame());
   return actions[key] ?? null;
+}
+
+function removeSelected(): void {
+  if (mode.value === "edit") void remove();
+  if (mode.value === "design" && active.value !== null) void removePose(active.value);
 }
 
 function drawsByKeys(): boolean {
@@ -120,6 +128,7 @@ function stopAll(): void {
   if (scaling.value || shifting.value) endScaling();
   if (tool.value) restart(drawing() ? tool.value : null);
   else selection.value = null;
+  active.value = null;
   message.value = null;
   (document.activeElement as HTMLElement | null)?.blur();
 }

@@ -1,6 +1,8 @@
 // Paints the whole drawing from the state of the page.
 import { isPin } from "../catalogue/catalogue";
 import { entry } from "../catalogue/tree";
+import { paintCandidate, paintPoses } from "../design/painting";
+import { active, candidate, poses as designPoses, taken } from "../design/task";
 import { paintCentres, paintCentrodes } from "../diagrams/painting";
 import { centres, centrodes } from "../diagrams/shown";
 import { paintArea } from "../draw/area";
@@ -33,7 +35,9 @@ import { notes, outlines, type Shown, traces, vectors } from "./motionOverlay";
 export function follow(): void {
   for (const one of [
     backdrop,
+    active,
     blamed,
+    candidate,
     centres,
     centrodes,
     ghost,
@@ -43,6 +47,7 @@ export function follow(): void {
     mechanism,
     mode,
     outlines,
+    designPoses,
     poses,
     scene,
     selection,
@@ -58,10 +63,10 @@ export function follow(): void {
 /** Paint everything on a context in CSS pixels. */
 export function paintSheet(context: CanvasRenderingContext2D, colours: Colours = palette(), bare = false): void {
   const found = mechanism.value;
-  const editing = mode.value === "edit" && !bare;
+  const editing = (mode.value === "edit" || mode.value === "design") && !bare;
   if (!bare) paintBackdrop(context);
   if (shown.value.grid) paintGrid(context, view, colours, editing);
-  if (found) {
+  if (found && !(mode.value === "design" && taken.value !== null)) {
     paintArea(context, view, outlines.value, colours);
     if (shown.value.traces) paintTraces(context, view, traces.value, colours);
     if (!bare) paintSelection(context, colours);
@@ -69,17 +74,24 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
       for (const at of blamed.value.flatMap(placesOfPart)) paintRing(context, view, at, colours, 18, "problem");
     const names = paintItems(context, view, items.value, poses.value, shown.value, colours);
     if (!items.value.length) paintLinks(context, view, found.bodies, poses.value, colours);
-    if (editing) paintHandles(context, view, loosePoints(), colours);
+    if (editing && mode.value === "edit") paintHandles(context, view, loosePoints(), colours);
     names.push(...paintNotes(context, notes.value, colours));
     if (mode.value === "read" && centrodes.value) paintCentrodes(context, view, centrodes.value, poses.value, colours);
     if (mode.value === "read") paintCentres(context, view, centres.value, found.bodies.length, colours);
     paintArrows(context, view, vectors.value.map(sized), names, colours);
     paintGravity(context, view, found.gravity, colours);
   }
+  if (mode.value === "design") paintDesign(context, colours);
   paintLengthScale(context, view, lengthScale(), colours);
   if (bare) return;
   if (ghost.value) paintGhost(context, view, ghost.value, colours);
   paintPreview(context, colours);
+}
+
+function paintDesign(context: CanvasRenderingContext2D, colours: Colours): void {
+  const one = candidate.value;
+  if (one) paintCandidate(context, view, one, designPoses.value, active.value ?? 0, colours);
+  paintPoses(context, view, designPoses.value, active.value, colours);
 }
 
 /** The unit of the scale: mm if it is chosen; with m, the unit that suits the size of the mechanism. */

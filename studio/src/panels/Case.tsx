@@ -14,6 +14,7 @@ import { Field, put, putTyped } from "./Field";
 import { Mobility } from "./Mobility";
 import { Button, Section } from "./parts";
 import { Ready } from "./Ready";
+import { Sliders } from "./Slopes";
 import { Start } from "./Start";
 import { TextField } from "./TextField";
 
@@ -66,6 +67,7 @@ function Parameters() {
           onRemove={() => put(["parameters", name], undefined)}
         />
       ))}
+      <Sliders />
       <form
         class="adding"
         onSubmit={(event) => {

@@ -38,7 +38,7 @@ export function Sheet() {
               onChange={(value) => (shown.value = { ...shown.value, [what]: value })}
             />
           ))}
-          {mode.value === "edit" ? (
+          {mode.value === "edit" || mode.value === "design" ? (
             <Check
               label={words.snap}
               hint={words.snapHint}

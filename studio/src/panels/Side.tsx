@@ -1,4 +1,7 @@
 // The panel at the side: the panel of the mode, the text, and on phones the palette.
+import { DesignPanel } from "../design/Panel";
+import { ExercisePanel } from "../exercise/Panel";
+import { has } from "../exercise/questions";
 import { phase } from "../guide/guide";
 import { dismiss, hint } from "../store/hints";
 import { mode, panel, problems } from "../store/state";
@@ -14,8 +17,9 @@ import { ReadPanel } from "./ReadPanel";
 export function Side() {
   const main = mode.value === "edit" ? "properties" : "results";
   const label = mode.value === "edit" ? texts.tabs.properties : texts.modes[mode.value];
-  const shown = panel.value === "text" || (panel.value === "insert" && mode.value === "edit") ? panel.value : "main";
+  const shown = tabOf();
   const count = problems.value.length;
+  const named: Partial<Record<string, string>> = { text: texts.tabs.text, questions: texts.exercise.title };
   return (
     <aside class="panel side">
       <div class="tabs" role="tablist">
@@ -29,6 +33,14 @@ export function Side() {
           />
         ) : null}
         <Tab id="main" label={label} chosen={shown === "main"} onClick={() => (panel.value = main)} />
+        {has.value ? (
+          <Tab
+            id="questions"
+            label={texts.exercise.title}
+            chosen={shown === "questions"}
+            onClick={() => (panel.value = "questions")}
+          />
+        ) : null}
         <Tab
           id="text"
           label={count ? `${texts.tabs.text} (${texts.editor.problems(count)})` : texts.tabs.text}
@@ -37,11 +49,27 @@ export function Side() {
         />
       </div>
       <FirstTime />
-      <div class="tab-body" role="tabpanel" aria-label={shown === "text" ? texts.tabs.text : label} tabIndex={-1}>
-        {shown === "text" ? <Editor /> : shown === "insert" ? <Palette /> : <Main />}
+      <div class="tab-body" role="tabpanel" aria-label={named[shown] ?? label} tabIndex={-1}>
+        {shown === "text" ? (
+          <Editor />
+        ) : shown === "insert" ? (
+          <Palette />
+        ) : shown === "questions" ? (
+          <ExercisePanel />
+        ) : (
+          <Main />
+        )}
       </div>
     </aside>
   );
+}
+
+/** The tab that is shown. */
+function tabOf(): "text" | "insert" | "questions" | "main" {
+  const now = panel.value;
+  if (now === "text") return now;
+  if (now === "insert" && mode.value === "edit") return now;
+  return now === "questions" && has.value ? now : "main";
 }
 
 /** One sentence about a mode or a tool at its first use. */
@@ -77,5 +105,6 @@ function Tab({ id, label, chosen, next, onClick }: TabProps) {
 function Main() {
   if (mode.value === "move") return <MovePanel />;
   if (mode.value === "live") return <LivePanel />;
+  if (mode.value === "design") return <DesignPanel />;
   return mode.value === "read" ? <ReadPanel /> : <Properties />;
 }

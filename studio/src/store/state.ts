@@ -7,7 +7,7 @@ import type { Units } from "../draw/display";
 import type { Item } from "../draw/items";
 import type { Placement } from "../plane/points";
 
-export const MODES = ["edit", "move", "live", "read"] as const;
+export const MODES = ["edit", "move", "live", "read", "design"] as const;
 export type Mode = (typeof MODES)[number];
 
 export interface Message {
@@ -58,7 +58,7 @@ export const snapping = signal(true);
 /** Points, lengths and angles that a drag does not change, by the names in edit/holding.ts. */
 export const held = signal<ReadonlySet<string>>(new Set());
 
-export const panel = signal<"properties" | "text" | "results" | "insert">("properties");
+export const panel = signal<"properties" | "text" | "results" | "insert" | "questions">("properties");
 export const dialog = signal<"gallery" | "share" | "help" | null>(null);
 
 /** Show a message in the status line. */

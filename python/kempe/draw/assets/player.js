@@ -1076,11 +1076,11 @@ var Motion = class {
     return { t: this.t[k], poses: pose, rates: rate, accelerations: acceleration2, forces: reactions[k], place: place2 };
   }
   /** Value at t of a curve: `values` at the frames and their `slopes`. */
-  value({ values, slopes }, t) {
+  value({ values, slopes: slopes2 }, t) {
     const { low, high, h, share } = this.place(t);
     if (share === 0) return values[low];
     if (share === 1) return values[high];
-    return cubic([values[low], values[high]], [slopes[low], slopes[high]], h, share);
+    return cubic([values[low], values[high]], [slopes2[low], slopes2[high]], h, share);
   }
   /** Slopes of values at the frames, by central differences. */
   slopes(values) {

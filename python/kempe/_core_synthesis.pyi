@@ -1,0 +1,79 @@
+"""Python interface of the compiled core: synthesis of linkages."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+_F = NDArray[np.float64]
+_Place = tuple[float, float]
+_Dyads = list[list[float]]
+#: Whether defects are kept, the least transmission angle, Grashof's condition, limits, direction.
+_Limits = tuple[bool, float | None, str | None, list[list[float]] | None, int]
+#: Number, whether its rocker is the crank, full turns, Grashof's condition, the least transmission
+#: angles over a turn and at the positions, defects, angles of the crank.
+RankedLinkage = tuple[int, bool, bool, bool, float, float, list[str], list[float]]
+
+def dyad_conditions(places: list[_Place], angles: list[float]) -> _Dyads:
+    """The conditions of poses on (1, w, g, u, v), one for each pose after the first."""
+
+def all_dyads(
+    rows: _Dyads,
+    poses: int,
+    pivot: _Place | None,
+    samples: int,
+    seed: int,
+    ends: list[str],
+    what: str,
+) -> tuple[_Dyads, bool]:
+    """All dyads (1, w, g, u, v) with linear conditions, or samples; whether these are all.
+
+    The first ``poses`` conditions are those of poses, whose name is ``what``; a fixed pivot is in
+    their frame. ``ends`` has "pin" and "pivot", whichever is sampled.
+    """
+
+def dyads_with_end(rows: _Dyads, end: str, at: list[_Place]) -> _Dyads:
+    """The dyads with given ends ("pin" or "pivot"), the shortest one for each."""
+
+def pairs_of_dyads(first: int, second: int | None, seed: int) -> list[tuple[int, int]]:
+    """Pairs of places in two lists with these lengths; in one list without a second."""
+
+def four_bars(
+    places: list[_Place],
+    angles: list[float],
+    pivots: tuple[_Place | None, _Place | None],
+    samples: int,
+    seed: int,
+) -> tuple[_F, list[float], bool]:
+    """Four-bars through two to five poses: (o, a, b, d) of all, errors, whether these are all."""
+
+def ranked_linkages(
+    linkages: _F,
+    errors: list[float],
+    slides: bool,
+    limits: _Limits,
+    either: bool,
+    complete: bool,
+) -> tuple[list[RankedLinkage], list[tuple[str, int]]]:
+    """Candidates, best first, and the numbers of linkages that defects and limits exclude.
+
+    ``linkages`` has (o, a, b, end) of each in a row, the end of a slide being its direction.
+    """
+
+def fit_coupler(
+    targets: list[list[float]],
+    weights: tuple[float, float],
+    linkage: list[float],
+    positions: list[list[float]],
+    free: list[bool],
+    steps: int,
+) -> tuple[list[float], list[list[float]], float]:
+    """A four-bar near a start whose coupler fits points: linkage, positions, sum of squares."""
+
+def fit_pairs(
+    targets: list[list[float]],
+    closing: float,
+    linkage: list[float],
+    positions: list[list[float]],
+    free: list[bool],
+    steps: int,
+) -> tuple[list[float], list[list[float]], float]:
+    """A four-bar near a start whose rocker fits pairs of angles, as ``fit_coupler``."""
