@@ -146,6 +146,9 @@ pub trait Force: Element {
     /// The parts. [`Force::action`] refers to them by their indices.
     const PARTS: &'static [Part];
 
+    /// Whether files contain elements of the type. Others are made by the reader of bodies.
+    const IN_FILES: bool = true;
+
     /// The position quantities that can be measured on the force.
     const MEASURED: &'static [Measured] = &[];
 

@@ -1,6 +1,7 @@
 //! A model over formulas: the definition with all names linked, before numbers are inserted.
 
-use super::definition::{Entry, Value};
+use super::definition::{Definition, Entry, Value};
+use super::beams::is_weld;
 use super::doubt::Doubt;
 use super::functions::Functions;
 use super::items::{Body, ForceMode};
@@ -51,10 +52,31 @@ pub struct Blueprint {
     pub functions: Option<Functions>,
     /// Angles that look like degrees.
     pub doubts: Vec<Doubt>,
+    /// The mechanism with rigid beams, in which assembly closes it. It has the same bodies.
+    pub rigid: Option<Arc<Blueprint>>,
 }
 
 impl Blueprint {
-    pub(super) fn link(
+    /// Links all joints, drivers and forces of a definition.
+    pub(super) fn link_all(
+        &mut self,
+        definition: &Definition,
+        scope: &Scope,
+        quantities: &dyn Quantities,
+        problems: &mut Vec<Problem>,
+    ) {
+        for (group, entries) in [
+            (Group::Joints, &definition.joints),
+            (Group::Drivers, &definition.drivers),
+            (Group::Forces, &definition.forces),
+        ] {
+            for entry in entries {
+                self.link(group, entry, scope, quantities, problems);
+            }
+        }
+    }
+
+    fn link(
         &mut self,
         group: Group,
         entry: &Entry,
@@ -147,6 +169,23 @@ impl Blueprint {
     pub fn keeping(&self, kept: &[usize]) -> Self {
         let constraints = kept.iter().map(|k| self.constraints[*k].clone()).list();
         Self { constraints: constraints.into(), forces: Arc::default(), ..self.clone() }
+    }
+
+    /// The mechanism in which beams are rigid, with the drivers, phases and further constraints of this one. None
+    /// without beams.
+    pub fn rigid(&self) -> Option<Self> {
+        let rigid = self.rigid.as_ref()?;
+        let own = |name: &str| self.constraints.iter().any(|(known, ..)| known == name);
+        let kept = rigid.constraints.iter().filter(|(name, ..)| own(name) || is_weld(name));
+        let known = |name: &str| rigid.constraints.iter().any(|(known, ..)| known == name);
+        let further = self.constraints.iter().filter(|(name, ..)| !known(name));
+        let constraints = kept.chain(further).cloned().list();
+        Some(Self {
+            constraints: constraints.into(),
+            phases: self.phases.clone(),
+            formulas: self.formulas.clone(),
+            ..Self::clone(rigid)
+        })
     }
 
     /// A body by name.

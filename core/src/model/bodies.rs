@@ -3,34 +3,48 @@
 //! A bar is shorthand for a general body whose numbers are formulas of the numbers of the bar, such as J = m L²/12.
 //! No other file needs to handle bars.
 
+use super::beams::{self, BEAM};
 use super::body_fields::{INSTEAD_OF_SHAPES, POINT_MASS};
 use super::definition::{Definition, Entry, Value};
 use super::items::Body;
 use super::problem::Problem;
 use super::scope::{Reach, Scope};
 use super::unit_check::ANY_UNIT;
-use crate::expression::{Expression, Tape};
+use crate::elements::BodyId;
+use crate::expression::{Expression, FormulaValues, Tape};
 use crate::math::{Listed, Local};
 
-/// Reads all bodies; index 0 is ground. A faulty body is kept with placeholder numbers, so that references to it
-/// cause no further reports.
+/// Reads all bodies, with index 0 for ground, and the beams among them. A faulty body is kept with placeholder
+/// numbers, so that references to it cause no further reports. `values` are those of the parameters.
 pub fn read(
     definition: &Definition,
     scope: &Scope,
+    values: &[f64],
     problems: &mut Vec<Problem>,
-) -> Vec<Body<Tape>> {
+) -> (Vec<Body<Tape>>, Vec<beams::Linked>) {
     let ground = Entry { name: "ground".to_string(), fields: Vec::new() };
     let written = definition.bodies.iter().find(|b| b.name == "ground").unwrap_or(&ground);
-    let moving = definition.bodies.iter().filter(|b| b.name != "ground");
-    std::iter::once(Reader { entry: written, scope, problems }.ground())
-        .chain(moving.map(|entry| Reader { entry, scope, problems }.moving()))
-        .list()
+    let mut bodies = vec![Reader { entry: written, scope, values, problems }.ground()];
+    let mut linked = Vec::new();
+    for entry in definition.bodies.iter().filter(|b| b.name != "ground") {
+        let mut reader = Reader { entry, scope, values, problems };
+        if entry.get("type") == Some(&Value::Text(BEAM.to_string())) {
+            let mut beam = beams::read(&mut reader, BodyId(bodies.len()));
+            bodies.append(&mut beam.bodies);
+            linked.push(beam);
+        } else {
+            bodies.push(reader.moving());
+        }
+    }
+    (bodies, linked)
 }
 
-struct Reader<'a> {
-    entry: &'a Entry,
-    scope: &'a Scope,
-    problems: &'a mut Vec<Problem>,
+pub(super) struct Reader<'a> {
+    pub entry: &'a Entry,
+    pub scope: &'a Scope,
+    /// Values of the parameters.
+    pub values: &'a [f64],
+    pub problems: &'a mut Vec<Problem>,
 }
 
 /// A named point with two coordinates, as text.
@@ -53,13 +67,13 @@ impl Reader<'_> {
             Some(Value::Text(kind)) if kind == POINT_MASS => self.point_mass(),
             None => self.general(),
             _ => {
-                self.report("type", "must be 'body', 'bar' or 'point_mass'");
+                self.report("type", "must be 'body', 'bar', 'beam' or 'point_mass'");
                 self.blank("body")
             }
         }
     }
 
-    fn blank(&mut self, kind: &'static str) -> Body<Tape> {
+    pub(super) fn blank(&mut self, kind: &'static str) -> Body<Tape> {
         let zero = || Tape::from(0.0);
         let moving = Tape::from(if kind == "ground" { 0.0 } else { 1.0 });
         Body {
@@ -250,7 +264,7 @@ impl Reader<'_> {
         points
     }
 
-    fn number(&mut self, key: &str, unit: &str) -> Option<Tape> {
+    pub(super) fn number(&mut self, key: &str, unit: &str) -> Option<Tape> {
         match self.entry.get(key) {
             Some(value) => {
                 let path = self.path(key);
@@ -263,8 +277,16 @@ impl Reader<'_> {
         }
     }
 
+    /// The present value of a formula that is composed here.
+    pub(super) fn value(&mut self, text: &str) -> f64 {
+        let tape = self.compose(text);
+        let values =
+            FormulaValues { parameters: self.values, time: f64::NAN, variables: &[] };
+        tape.evaluate(&values)
+    }
+
     /// A formula that is composed here. It can only fail by becoming too long.
-    fn compose(&mut self, text: &str) -> Tape {
+    pub(super) fn compose(&mut self, text: &str) -> Tape {
         let path = self.path("type");
         let value = Value::Text(text.to_string());
         let tape =
@@ -272,15 +294,15 @@ impl Reader<'_> {
         tape.unwrap_or_else(|| Tape::from(0.0))
     }
 
-    fn path(&self, key: &str) -> [String; 3] {
+    pub(super) fn path(&self, key: &str) -> [String; 3] {
         ["bodies".to_string(), self.entry.name.clone(), key.to_string()]
     }
 
-    fn report(&mut self, key: &str, message: &str) {
+    pub(super) fn report(&mut self, key: &str, message: &str) {
         self.problems.push(Problem::at(&self.path(key), message));
     }
 
-    fn missing(&mut self, message: &str) {
+    pub(super) fn missing(&mut self, message: &str) {
         self.problems.push(Problem::at(&["bodies", &self.entry.name], message));
     }
 }
@@ -298,7 +320,7 @@ fn text(value: &Value) -> Option<String> {
 }
 
 /// A value as a term of a longer formula. A quantity with a unit is not allowed in formulas, so its number is used.
-fn term(value: &Value) -> String {
+pub(super) fn term(value: &Value) -> String {
     match value {
         Value::Number(x) => format!("({x:?})"),
         Value::Text(text) => match Expression::parse(text) {

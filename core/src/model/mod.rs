@@ -1,5 +1,6 @@
 //! Models: as written ([`Definition`]), linked ([`Blueprint`]) and as numbers ([`Model`]).
 
+mod beams;
 mod blueprint;
 mod bodies;
 mod body_fields;
@@ -40,6 +41,7 @@ mod unit_check;
 mod variable;
 mod variant;
 
+pub use beams::{beam_of, BEAM, NODE};
 pub use blueprint::Blueprint;
 pub use body_fields::body_tables;
 pub(crate) use body_fields::INSTEAD_OF_SHAPES;

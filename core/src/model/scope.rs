@@ -1,5 +1,6 @@
 //! Formulas of a model: the names that they may use, and their units.
 
+use super::beams::{self, BEAM};
 use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
 use super::doubt::Doubt;
@@ -198,11 +199,23 @@ impl Scope {
             let held = sampled.filter(|(_, law, _)| law.element == entry.name);
             own.chain(held.map(|(_, law, _)| law.held()))
         });
+        let is_beam = |b: &Entry| b.get("type") == Some(&Value::Text(BEAM.to_string()));
+        let nodes = |b: &Entry| if is_beam(b) { beams::names(b) } else { Vec::new() };
         let bodies = std::iter::once(("ground".to_string(), true))
-            .chain(moving.map(|b| (b.name.clone(), turns(b))))
+            .chain(moving.clone().flat_map(|b| {
+                let further = nodes(b).into_iter().map(|name| (name, true));
+                std::iter::once((b.name.clone(), turns(b))).chain(further)
+            }))
             .list();
         let parameters = definition.parameters.iter().map(|(name, _)| name.clone()).list();
         let mut scope = Self::of(parameters, inferred, bodies, states.list());
+        for beam in moving.filter(|b| is_beam(b)) {
+            // the first end is the first node
+            let [first, _] = beams::ends(beam);
+            let place = scope.places.bodies.get(&beam.name).copied();
+            let name = format!("{}.{first}", beam.name);
+            place.into_iter().for_each(|k| _ = scope.places.bodies.entry(name.clone()).or_insert(k));
+        }
         scope.functions.clone_from(&definition.functions);
         let constraints = definition.joints.iter().chain(&definition.drivers);
         scope.places.constraints = places(constraints.map(|entry| &entry.name));

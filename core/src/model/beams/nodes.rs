@@ -1,0 +1,60 @@
+//! The names of the nodes of a beam, which follow from its entry without any number.
+
+use super::super::definition::{Entry, Value};
+use crate::math::Listed;
+
+/// Number of elements if it is not given.
+const DEFAULT_ELEMENTS: usize = 4;
+/// Nodes that an element adds.
+pub const PER_ELEMENT: usize = 3;
+
+/// The names of the two ends.
+pub fn ends(entry: &Entry) -> [String; 2] {
+    if let Some(Value::List(items)) = entry.get("ends") {
+        if let [Value::Text(first), Value::Text(last)] = &items[..] {
+            return [first.clone(), last.clone()];
+        }
+    }
+    ["A", "B"].map(str::to_string)
+}
+
+/// The named points as written.
+pub fn points(entry: &Entry) -> &[(String, Value)] {
+    match entry.get("points") {
+        Some(Value::Table(points)) => points,
+        _ => &[],
+    }
+}
+
+/// The number of elements that is written.
+pub fn written(entry: &Entry) -> Option<usize> {
+    match entry.get("elements") {
+        Some(Value::Number(x)) if x.fract() == 0.0 && (1.0..=MOST).contains(x) => Some(*x as usize),
+        _ => None,
+    }
+}
+
+/// Largest number of elements of a beam.
+pub const MOST: f64 = 10_000.0;
+
+/// The number of elements: at least one between two places with names.
+pub fn elements(entry: &Entry) -> usize {
+    let least = points(entry).len() + 1;
+    written(entry).unwrap_or(DEFAULT_ELEMENTS.max(2 * least)).max(least)
+}
+
+/// The name of node `k` between the places with names, counted along the beam.
+pub fn inner(beam: &str, k: usize) -> String {
+    format!("{beam}.#{}", k + 1)
+}
+
+/// The names of the nodes of a beam after the first one, in the order of the bodies: the last end, the named points
+/// as written, then the nodes between them along the beam.
+pub fn names(entry: &Entry) -> Vec<String> {
+    let [_, last] = ends(entry);
+    let named = points(entry).iter().map(|(point, _)| point.clone());
+    let places = std::iter::once(last).chain(named);
+    let places: Vec<String> = places.map(|place| format!("{}.{place}", entry.name)).list();
+    let inner_nodes = PER_ELEMENT * elements(entry) - places.len();
+    places.into_iter().chain((0..inner_nodes).map(|k| inner(&entry.name, k))).list()
+}
