@@ -239,6 +239,7 @@ _HOME = {
     "SavedStep": "stepping",
     "SingularityError": "errors",
     "Solution": "results.solution",
+    "Section": "model.beams",
     "Start": "analyses.start",
     "State": "results.state",
     "Stepper": "stepping",

@@ -109,6 +109,10 @@ macro_rules! forces {
             pub fn clearances(&self) -> Vec<Clearance<'_>> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::clearances(e),)+ }
             }
+            /// Whether the dimensions that give a stress are known.
+            pub fn has_stress(&self) -> bool {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::has_stress(e),)+ }
+            }
             /// The symbols of the force in a drawing.
             pub fn symbols(&self) -> Vec<SceneSymbol> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::symbols(e),)+ }

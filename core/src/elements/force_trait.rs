@@ -353,6 +353,13 @@ pub trait Force: Element {
         S::zero()
     }
 
+    /// Whether the dimensions that give a stress are known.
+    #[inline]
+    fn has_stress(e: &Self::Over<f64>) -> bool {
+        let _ = e;
+        false
+    }
+
     /// The symbols of the element in a drawing. A varying law is NaN here.
     #[inline]
     fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {

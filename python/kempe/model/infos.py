@@ -65,6 +65,11 @@ class BodyInfo:
         return int(self.columns.stop - self.columns.start)
 
     @property
+    def is_shown(self) -> bool:
+        """Whether lists and figures show it: a node inside of a beam is part of the beam."""
+        return self.type != "node"
+
+    @property
     def quantities(self) -> tuple[str, ...]:
         """Names of its coordinates: ``x``, ``y`` and ``angle``."""
         return COORDINATES[: self.count]
@@ -169,6 +174,11 @@ class ForceInfo:
     reads_multipliers: bool
     results: tuple[tuple[str, str], ...]
     measured: tuple[Measured, ...]
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether lists and figures show it: an elastic piece is part of its beam."""
+        return self.type != "beam_piece"
 
     def __repr__(self) -> str:
         return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"

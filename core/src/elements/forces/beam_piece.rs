@@ -289,6 +289,10 @@ impl Force for BeamPiece {
         out[8 * STATIONS + 2] = Self::potential(e, at);
     }
 
+    fn has_stress(e: &BeamPiece) -> bool {
+        e.by_force.iter().all(|x| *x != 0.0)
+    }
+
     fn symbols(e: &BeamPiece) -> Vec<SceneSymbol> {
         let node = |body| PointOn { body, s: Local::zero() };
         let nodes = [e.i, e.second, e.third, e.j].map(node);
