@@ -4,7 +4,7 @@ use super::signals::{Energy, ForcePart, Signal};
 use crate::elements::{BodyId, Followed, Measured};
 use crate::equations::measured::{offered, ElementId};
 use crate::math::Listed;
-use crate::model::{beam_of, Columns, Model, BEAM};
+use crate::model::{beam_of, is_inner, Columns, Model, BEAM};
 
 /// The quantities of one owner with their names.
 type Family = Vec<(String, Signal)>;
@@ -31,12 +31,14 @@ pub(super) fn names(model: &Model, like: &str) -> Vec<String> {
 }
 
 fn owners(model: &Model) -> Vec<String> {
-    let points = model.bodies.iter().flat_map(|body| {
+    let shown = model.bodies.iter().filter(|body| !is_inner(&body.name));
+    let points = shown.flat_map(|body| {
         let points = body.points.iter().map(|(point, _)| format!("{}.{point}", body.name));
         std::iter::once(body.name.clone()).chain(points)
     });
     let constraints = model.constraints.iter().map(|item| item.name.clone());
-    let forces = model.forces.iter().map(|item| item.name.clone());
+    let of_file = model.forces.iter().filter(|item| item.element.in_files());
+    let forces = of_file.map(|item| item.name.clone());
     let of_run = ["energy", "drift"].map(str::to_string);
     points.chain(constraints).chain(forces).chain(of_run).list()
 }

@@ -41,7 +41,7 @@ mod unit_check;
 mod variable;
 mod variant;
 
-pub use beams::{beam_of, BEAM, NODE};
+pub use beams::{beam_of, is_inner, BEAM, NODE};
 pub use blueprint::Blueprint;
 pub use body_fields::body_tables;
 pub(crate) use body_fields::INSTEAD_OF_SHAPES;

@@ -154,7 +154,8 @@ impl Names for Visible<'_> {
             return known;
         }
         known.push("t".to_string());
-        for (k, (body, _)) in self.scope.bodies.iter().enumerate().skip(1) {
+        let bodies = self.scope.bodies.iter().enumerate().skip(1);
+        for (k, (body, _)) in bodies.filter(|(_, (body, _))| !beams::is_inner(body)) {
             let coordinates = Coordinate::ALL.into_iter().filter(|c| self.sees(k, *c));
             coordinates.map(|c| format!("{body}.{}", c.name())).append_to(&mut known);
         }

@@ -1,5 +1,6 @@
 //! The symbols of all elements of a model.
 
+use super::beams::beam_of;
 use super::model::Model;
 use crate::elements::SceneSymbol;
 use crate::expression::{Symbol, Tape, Values};
@@ -33,7 +34,9 @@ impl Model {
             found.push((name.as_str(), formula.map(value).symbols()));
         }
         for (name, _, formula) in blueprint.forces.iter() {
-            found.push((name.as_str(), formula.map(value).symbols()));
+            // the pieces of a beam are drawn as one
+            let name = if formula.in_files() { name.as_str() } else { beam_of(name) };
+            found.push((name, formula.map(value).symbols()));
         }
         found
     }

@@ -168,12 +168,12 @@ def of_body(motion: Motion, info: BodyInfo) -> Family:
     count = info.count if info.number else len(COORDINATES)
     families = zip((COORDINATES, RATES, ACCELERATIONS), UNITS, strict=True)
     own = of_beam(motion, info.name) if info.type == "beam" else {}
-    return {
-        **own,
+    found = {
         name: Quantity(unit, partial(getattr, view, name))
         for known, units in families
         for name, unit in zip(known[:count], units[:count], strict=True)
     }
+    return {**found, **own}
 
 
 def of_beam(motion: Motion, name: str) -> Family:

@@ -297,7 +297,7 @@ impl Force for BeamPiece {
         let node = |body| PointOn { body, s: Local::zero() };
         let nodes = [e.i, e.second, e.third, e.j].map(node);
         let lines = nodes.windows(2);
-        lines.map(|ends| SceneSymbol::between_points(Mark::Sleeve, &ends[0], &ends[1])).collect()
+        lines.map(|ends| SceneSymbol::between_points(Mark::Beam, &ends[0], &ends[1])).collect()
     }
 
     fn fault(e: &BeamPiece) -> Option<(&'static str, String)> {

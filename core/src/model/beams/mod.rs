@@ -26,6 +26,11 @@ pub const BEAM: &str = "beam";
 /// The kind of the bodies that are the further nodes of a beam.
 pub const NODE: &str = "node";
 
+/// Whether a body is a node of a beam without a name of the file.
+pub fn is_inner(name: &str) -> bool {
+    name.contains(".#")
+}
+
 /// The name of the beam to which an item with a name made here belongs, such as `rod` for `rod.B`.
 pub fn beam_of(name: &str) -> &str {
     name.split_once('.').map_or(name, |(beam, _)| beam)
