@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
-from scipy.special import ellipj, ellipk
+from scipy.special import ellipk
 
 import kempe as kp
 
@@ -62,47 +63,45 @@ def test_a_cantilever_without_shear_is_the_limit_of_large_shear_stiffness() -> N
     assert limit == pytest.approx(UNSHEARED, abs=1e-8)
 
 
+def bent(m: kp.Model, angle: Callable[[float], float]) -> kp.State:
+    """The assembled state with the nodes of a straight beam at given angles, without stretch."""
+    q = np.array(kp.assemble(m).q).reshape(-1, 3)
+    for row in q:
+        s = row[0]
+        row[0] = quad(lambda u: math.cos(angle(u)), 0, s, epsabs=1e-9 * max(1.0, s))[0]
+        row[1] = quad(lambda u: math.sin(angle(u)), 0, s, epsabs=1e-9 * max(1.0, s))[0]
+        row[2] = angle(s)
+    return kp.State(m, 0.0, q.ravel(), np.zeros(q.size))
+
+
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
 def test_a_moment_rolls_a_cantilever_up_to_a_circle(size: float) -> None:
     side, length = SIDE * size, 10 * size
     section = kp.Section.rectangle(height=side, width=side)
-    m = cantilever(10, {"turn": 1.0}, length=length, section=section)
+    m = cantilever(8, length=length, section=section)
     moment = 2 * math.pi * E * side**4 / 12 / length
-    m.torque("M", "rod.B", torque=f"{moment!r}*turn")
-    path = kp.equilibrium(m, kp.assemble(m), over="turn", range=(0.0, 1.0))
-    state = path.states[-1]
+    m.torque("M", "rod.B", torque=moment)
+    state = kp.equilibrium(m, bent(m, lambda s: 1.98 * math.pi * s / length)).state
     assert state["rod.B.angle"] == pytest.approx(2 * math.pi, rel=1e-9)
-    assert np.hypot(state["rod.B.x"], state["rod.B.y"]) < 1e-6 * length
+    assert np.hypot(state["rod.B.x"], state["rod.B.y"]) < 1e-9 * length
     beam = state.beam("rod")
     assert beam.bending_moment == pytest.approx(np.full(len(beam.s), moment), rel=1e-8)
     radius = length / (2 * math.pi)
-    from_centre = np.hypot(beam.x, beam.y - radius)
-    assert from_centre == pytest.approx(np.full(len(beam.s), radius), rel=1e-6)
+    nodes = state.q.reshape(-1, 3)
+    from_centre = np.hypot(nodes[:, 0], nodes[:, 1] - radius)
+    assert from_centre == pytest.approx(np.full(len(nodes), radius), rel=1e-6)
 
 
-def test_a_strut_buckles_along_the_elastica() -> None:
-    # clamped at A, load P towards A; end angle a: sqrt(P/EI) L = K(sin a/2)
-    stiff = {"EA": 1e9, "GA": 1e9, "EI": 1.0, "mass_per_length": 1.0}
-    for angle in (0.5, 1.5, 2.5):
-        k = math.sin(angle / 2)
-        load = ellipk(k * k) ** 2
-        m = cantilever(12, length=1.0, **stiff)
-        m.force("load", "rod.B", force=(-float(load), 0))
-        state = kp.equilibrium(m, _pushed(m, kp.assemble(m))).state
-        assert abs(state["rod.B.angle"]) == pytest.approx(angle, rel=1e-5)
-        assert ellipj(ellipk(k * k), k * k)[0] == pytest.approx(1.0)
-
-
-def _pushed(m: kp.Model, start: kp.State) -> kp.State:
-    """A state near the first buckled shape: sections turned in proportion to a sine."""
-    q = np.array(start.q)
-    names = m.compile().column_names()
-    for k, name in enumerate(names):
-        if name.endswith(".x"):
-            s = q[k]
-            q[k + 1] += 0.3 * (1 - math.cos(math.pi * s / 2))
-            q[k + 2] += math.atan(0.15 * math.pi * math.sin(math.pi * s / 2))
-    return kp.State(m, 0.0, q, np.zeros_like(q))
+@pytest.mark.parametrize("angle", [0.5, 1.5, 2.5])
+def test_a_strut_buckles_along_the_elastica(angle: float) -> None:
+    # clamped at A, load P towards A, angle a of the free end: sqrt(P/EI) L = K(sin a/2)
+    stiff = {"EA": 1e7, "GA": 1e7, "EI": 1.0, "mass_per_length": 1.0}
+    load = float(ellipk(math.sin(angle / 2) ** 2) ** 2)
+    m = cantilever(6, length=1.0, **stiff)
+    m.force("load", "rod.B", force=(-load, 0))
+    start = bent(m, lambda s: 0.9 * angle * math.sin(math.pi * s / 2))
+    state = kp.equilibrium(m, start).state
+    assert state["rod.B.angle"] == pytest.approx(angle, rel=2e-6)
 
 
 def timoshenko(count: int) -> list[float]:
@@ -143,7 +142,7 @@ def test_the_frequencies_of_a_cantilever_are_those_of_timoshenko() -> None:
     omega = np.unique(np.abs(kp.modes(m, kp.assemble(m)).omega).round(6))
     expected = timoshenko(3)
     for one in expected:
-        assert np.abs(omega / one - 1).min() < 2e-6, (one, omega[:6])
+        assert np.abs(omega / one - 1).min() < 1e-5, (one, omega[:6])
     # the first mode of stretch, sqrt(E/rho) pi/2L
     stretch = math.pi / (2 * LENGTH) * math.sqrt(E / 7850)
     assert np.abs(omega / stretch - 1).min() < 1e-8
@@ -165,7 +164,7 @@ def thrown(m: kp.Model) -> kp.State:
 @pytest.mark.parametrize("mass", [1e-3, 1.0, 1e3])
 def test_a_free_beam_keeps_its_momentum_and_energy(mass: float) -> None:
     m = free_beam(mass)
-    solution = kp.dynamics(m, thrown(m), t_end=0.5, tolerance=1e-11)
+    solution = kp.dynamics(m, thrown(m), t_end=0.5, method=kp.DOP853(rtol=1e-11, atol=1e-11))
     totals = np.zeros((len(solution.t), 3))
     for name, info in solution.compiled.bodies.items():
         body = solution.body(name)
