@@ -138,6 +138,7 @@ if TYPE_CHECKING:
     from kempe.errors import SingularityError as SingularityError
     from kempe.lab_report import write_report as write_report
     from kempe.loading import load as load
+    from kempe.model.beams import Section as Section
     from kempe.model.doubts import ModelWarning as ModelWarning
     from kempe.model.functions import Function as Function
     from kempe.model.functions import FunctionWarning as FunctionWarning

@@ -6,13 +6,12 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+import kempe as kp
 import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import ellipk
-
-import kempe as kp
 
 E, SIDE, LENGTH = 2.07e11, 0.1, 2.0
 SQUARE = kp.Section.rectangle(height=SIDE, width=SIDE)

@@ -107,9 +107,9 @@ fn of_beam(model: &Model, beam: &str, found: &mut Family) {
     for (name, sum) in [("stress", false), ("bending_moment", false), ("strain_energy", true)] {
         let place = results.iter().position(|known| known.name == name);
         let known = name != "stress" || model.forces[*first].element.has_stress();
-        let signal = place.filter(|_| known).map(|place| {
-            (name.to_string(), Signal::OfBeam { pieces: pieces.clone(), place, sum })
-        });
+        let signal = place
+            .filter(|_| known)
+            .map(|place| (name.to_string(), Signal::OfBeam { pieces: pieces.clone(), place, sum }));
         found.extend(signal);
     }
 }

@@ -193,7 +193,10 @@ impl Signal {
             Self::ForceResult { k, place } => force_result(model, *k, *place, seen),
             Self::OfBeam { pieces, place, sum } => {
                 let of = |k: &usize| force_result(model, *k, *place, seen);
-                pieces.iter().map(of).fold(S::zero(), |all, x| if *sum { all + x } else { all.max(x) })
+                pieces
+                    .iter()
+                    .map(of)
+                    .fold(S::zero(), |all, x| if *sum { all + x } else { all.max(x) })
             }
             Self::ForcePower(k) => power(model, *k, seen),
             Self::ForceEnergy(k) => forces::potential(model, *k, seen.motions, seen.acting()),

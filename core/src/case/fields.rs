@@ -5,8 +5,8 @@ use super::report::{among, ProblemList};
 use super::tree::{Data, Node, Table};
 use super::values::{
     corners, count, curves, names, number, numbers, outline, pair, plain_numbers, points,
-    quantities, ranges, section, terms, tolerance, triple, two_columns, two_names, units, word, wrong,
-    TERMS,
+    quantities, ranges, section, terms, tolerance, triple, two_columns, two_names, units, word,
+    wrong, TERMS,
 };
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};

@@ -205,10 +205,7 @@ pub(super) fn two_names(report: &mut ProblemList, node: &Node) {
 /// A cross section of a beam.
 pub(super) fn section(report: &mut ProblemList, node: &Node) {
     let known = ["rectangle", "circle", "tube"];
-    let form = report.example(
-        "{ rectangle = [0.01, 0.02] }",
-        "{ \"rectangle\": [0.01, 0.02] }",
-    );
+    let form = report.example("{ rectangle = [0.01, 0.02] }", "{ \"rectangle\": [0.01, 0.02] }");
     let Data::Table(table) = &node.data else {
         return wrong(report, node, &format!("a section such as {form}"));
     };

@@ -129,7 +129,8 @@ mod tests {
         let (f, slope) = (|x: f64| 2.0 - x + 3.0 * x * x * x, |x: f64| -1.0 + 9.0 * x * x);
         for x in [-1.0, -0.6, 0.0, 0.33, 1.0] {
             let of = at(x);
-            let sum = |parts: [f64; NODES]| (0..NODES).map(|k| parts[k] * f(PLACES[k])).sum::<f64>();
+            let sum =
+                |parts: [f64; NODES]| (0..NODES).map(|k| parts[k] * f(PLACES[k])).sum::<f64>();
             assert!((sum(of.value) - f(x)).abs() < 1e-14);
             assert!((sum(of.slope) - slope(x)).abs() < 1e-13);
         }

@@ -1,7 +1,7 @@
 //! A model over formulas: the definition with all names linked, before numbers are inserted.
 
+use super::beam_names::is_weld;
 use super::definition::{Definition, Entry, Value};
-use super::beams::is_weld;
 use super::doubt::Doubt;
 use super::functions::Functions;
 use super::items::{Body, ForceMode};

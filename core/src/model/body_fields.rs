@@ -1,6 +1,6 @@
 //! The fields of bodies as data, for the reader of files, the schema, Python and the model.
 
-use super::beams;
+use super::beam_fields::beam;
 use crate::elements::{Default, Field, Shape, Table};
 
 /// The `type` of a body without an angle.
@@ -12,7 +12,7 @@ pub(crate) const INSTEAD_OF_SHAPES: [&str; 3] = ["mass", "inertia", "center"];
 /// The types of bodies: `body` (the default), `bar`, `point_mass`, `beam`, and `ground`. `ground` is not written as a type;
 /// it is the name of a body.
 pub fn body_tables() -> Vec<Table> {
-    vec![body(), bar(), point_mass(), beams::beam(), ground()]
+    vec![body(), bar(), point_mass(), beam(), ground()]
 }
 
 fn points() -> Field {

@@ -1,6 +1,6 @@
 //! Checks of the numbers of a model.
 
-use super::beams::{beam_of, BEAM, NODE};
+use super::beam_names::{beam_of, BEAM, NODE};
 use super::items::Body;
 use super::model::Model;
 use super::outline::Outline;

@@ -1,6 +1,6 @@
 //! Linking of the fields of an element: names become indices, and text becomes formulas.
 
-use super::beams::is_inner;
+use super::beam_names::is_inner;
 use super::definition::{Entry, Value};
 use super::items::Body;
 use super::law_faults::WITHOUT_FORMULA;

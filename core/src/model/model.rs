@@ -1,6 +1,6 @@
 //! A model as numbers: immutable, over any scalar.
 
-use super::beams::BEAM;
+use super::beam_names::BEAM;
 use super::blueprint::Blueprint;
 use super::functions::Functions;
 use super::items::{Body, ConstraintItem, ForceItem};
@@ -201,7 +201,9 @@ impl<S> Model<S> {
         let first = || {
             let (beam, place) = name.split_once('.')?;
             let is_first = |b: &Body<S>| {
-                b.kind == BEAM && b.name == beam && b.points.first().is_some_and(|(p, _)| p == place)
+                b.kind == BEAM
+                    && b.name == beam
+                    && b.points.first().is_some_and(|(p, _)| p == place)
             };
             self.bodies.iter().position(is_first)
         };

@@ -1,6 +1,6 @@
 //! The values of the fields of an element, by their kinds.
 
-use super::beams::NODE;
+use super::beam_names::NODE;
 use super::definition::Value;
 use super::scope::Reach;
 use super::unit_check::ANY_UNIT;

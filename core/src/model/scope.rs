@@ -1,6 +1,6 @@
 //! Formulas of a model: the names that they may use, and their units.
 
-use super::beams::{self, BEAM};
+use super::beam_names::{body_names, first_end, is_inner};
 use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
 use super::doubt::Doubt;
@@ -155,7 +155,7 @@ impl Names for Visible<'_> {
         }
         known.push("t".to_string());
         let bodies = self.scope.bodies.iter().enumerate().skip(1);
-        for (k, (body, _)) in bodies.filter(|(_, (body, _))| !beams::is_inner(body)) {
+        for (k, (body, _)) in bodies.filter(|(_, (body, _))| !is_inner(body)) {
             let coordinates = Coordinate::ALL.into_iter().filter(|c| self.sees(k, *c));
             coordinates.map(|c| format!("{body}.{}", c.name())).append_to(&mut known);
         }
@@ -200,23 +200,13 @@ impl Scope {
             let held = sampled.filter(|(_, law, _)| law.element == entry.name);
             own.chain(held.map(|(_, law, _)| law.held()))
         });
-        let is_beam = |b: &Entry| b.get("type") == Some(&Value::Text(BEAM.to_string()));
-        let nodes = |b: &Entry| if is_beam(b) { beams::names(b) } else { Vec::new() };
+        let names = |b: &Entry| body_names(b).into_iter().map(|name| (name, turns(b))).list();
         let bodies = std::iter::once(("ground".to_string(), true))
-            .chain(moving.clone().flat_map(|b| {
-                let further = nodes(b).into_iter().map(|name| (name, true));
-                std::iter::once((b.name.clone(), turns(b))).chain(further)
-            }))
+            .chain(moving.clone().flat_map(|b| names(b)))
             .list();
         let parameters = definition.parameters.iter().map(|(name, _)| name.clone()).list();
         let mut scope = Self::of(parameters, inferred, bodies, states.list());
-        for beam in moving.filter(|b| is_beam(b)) {
-            // the first end is the first node
-            let [first, _] = beams::ends(beam);
-            let place = scope.places.bodies.get(&beam.name).copied();
-            let name = format!("{}.{first}", beam.name);
-            place.into_iter().for_each(|k| _ = scope.places.bodies.entry(name.clone()).or_insert(k));
-        }
+        scope.places.add_ends(moving.filter_map(|b| Some((b.name.clone(), first_end(b)?))));
         scope.functions.clone_from(&definition.functions);
         let constraints = definition.joints.iter().chain(&definition.drivers);
         scope.places.constraints = places(constraints.map(|entry| &entry.name));

@@ -1,6 +1,6 @@
 //! The symbols of all elements of a model.
 
-use super::beams::beam_of;
+use super::beam_names::beam_of;
 use super::model::Model;
 use crate::elements::SceneSymbol;
 use crate::expression::{Symbol, Tape, Values};

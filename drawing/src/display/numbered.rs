@@ -38,7 +38,12 @@ pub fn add(made: &mut List<'_>, numbers: Numbers) {
         match free_place(made, carrier, &pins) {
             Some(at) => {
                 let frame = Frame::upright(carrier.number, at);
-                made.items.extend(circled(&body.name, &frame, [0.0; 2]));
+                let rim = circled(&body.name, &frame, [0.0; 2]);
+                let colour = colour_of(body.number);
+                made.items.extend(rim.map(|item| match item.colour.as_str() {
+                    "paper" => item,
+                    _ => Item { colour: colour.clone(), ..item },
+                }));
                 made.items.push(Item::text(&body.name, &frame, [0.0; 4], &number, Role::Number));
                 pins.push((printed_path(made, carrier.number, at), RADIUS));
                 if numbers.names {

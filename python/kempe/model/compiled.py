@@ -234,6 +234,11 @@ class CompiledModel:
         return MappingProxyType({k: b for k, b in self.bodies.items() if b.is_shown})
 
     @property
+    def named_bodies(self) -> Mapping[str, BodyInfo]:
+        """The moving bodies, and the ends and named points of beams."""
+        return MappingProxyType({k: b for k, b in self.bodies.items() if not b.is_inner})
+
+    @property
     def shown_forces(self) -> Mapping[str, ForceInfo]:
         """The force elements of the file."""
         return MappingProxyType({k: f for k, f in self.forces.items() if f.is_shown})

@@ -205,9 +205,7 @@ def section(value: object, path: str) -> dict[str, Any]:
     form = "kp.Section.rectangle(height=0.01, width=0.02)"
     if not isinstance(value, Mapping):
         refuse(path, f"{value!r}; must be a section such as {form}")
-    return {
-        reference(key, path): _of_curve(entry, f"{path}.{key}") for key, entry in value.items()
-    }
+    return {reference(key, path): _of_curve(entry, f"{path}.{key}") for key, entry in value.items()}
 
 
 def _of_curve(value: object, path: str) -> Any:

@@ -232,7 +232,11 @@ class Motion:
     def force_results(self, name: str) -> Floats:
         """Results of a force element beside its wrenches, (…, n); see ``ForceInfo.results``."""
         reads = self.compiled.forces[name].reads_multipliers
-        lam = self.lam if reads else np.zeros((len(np.atleast_1d(self.t)), self.compiled.n_multipliers))
+        lam = (
+            self.lam
+            if reads
+            else np.zeros((len(np.atleast_1d(self.t)), self.compiled.n_multipliers))
+        )
         return self._answer(lambda states: states.force_results(name), lam)
 
     def force_energy(self, name: str) -> Floats:

@@ -154,7 +154,8 @@ fn complete(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete
         Some(rigid) => {
             let start = elastic(&rigid, request, stop).map_err(failure::of_rigid)?;
             let state = Some(start.state.clone());
-            let closed = elastic(model, &Request { state, guess: Vec::new(), ..request.clone() }, stop)?;
+            let closed =
+                elastic(model, &Request { state, guess: Vec::new(), ..request.clone() }, stop)?;
             Ok(Complete { rigid: Some((rigid, Box::new(start))), ..closed })
         }
         None => elastic(model, request, stop),

@@ -1,9 +1,10 @@
 //! The centre line of a beam without stress: straight, a circular arc, or a spline through points.
 
-use super::super::bodies::{term, Reader};
+use super::super::body_reader::{term, Reader};
 use super::super::definition::Value;
+use super::super::scope::Reach;
 use super::spline::{crosses, crossing, Curved};
-use crate::elements::beam_line::{section, AT_GAUSS, NODES, PLACES};
+use crate::elements::beam_line::{section, AT_GAUSS, GAUSS, NODES, PLACES};
 use crate::expression::Tape;
 use crate::math::{each, indexed, Listed, Pose};
 
@@ -12,14 +13,14 @@ const FINE: usize = 16;
 
 /// A centre line with its length as text.
 pub struct CentreLine {
-    pub form: Form,
+    form: LineForm,
     pub length: String,
     /// The pose of the first end when assembly starts.
     pub drawn: Option<[Tape; 3]>,
 }
 
 /// The shape of a centre line.
-pub enum Form {
+enum LineForm {
     Straight,
     /// An arc; the text of the angle between its tangents.
     Arc(String),
@@ -39,7 +40,7 @@ impl CentreLine {
             ["length"] => {
                 reader.number("length", "m")?;
                 let length = term(reader.entry.get("length")?);
-                Some(Self { form: Form::Straight, length, drawn: None })
+                Some(Self { form: LineForm::Straight, length, drawn: None })
             }
             ["through"] => Self::through(reader),
             ["arc"] => Self::arc(reader),
@@ -75,7 +76,7 @@ impl CentreLine {
             let length = format!("hypot({bx}-{ax},{by}-{ay})");
             let angle = format!("atan2({by}-{ay},{bx}-{ax})");
             let drawn = [ax, ay, angle].map(|text| reader.compose(&text));
-            return Some(Self { form: Form::Straight, length, drawn: Some(drawn) });
+            return Some(Self { form: LineForm::Straight, length, drawn: Some(drawn) });
         }
         let numbers: Option<Vec<[f64; 2]>> =
             points.iter().map(|[x, y]| Some([x.constant()?, y.constant()?])).collect();
@@ -101,7 +102,7 @@ impl CentreLine {
         }
         let drawn = curved.first().map(Tape::from);
         let length = format!("({:?})", curved.length());
-        Some(Self { form: Form::Spline(curved), length, drawn: Some(drawn) })
+        Some(Self { form: LineForm::Spline(curved), length, drawn: Some(drawn) })
     }
 
     fn arc(reader: &mut Reader<'_>) -> Option<Self> {
@@ -117,7 +118,7 @@ impl CentreLine {
         for (k, item) in items.iter().enumerate() {
             let path = path.iter().cloned().chain([k.to_string()]).list();
             let unit = if k < 3 { "m" } else { "rad" };
-            let reach = super::super::scope::Reach::Parameters;
+            let reach = Reach::Parameters;
             reader.scope.formula(item, &path, unit, reach, reader.problems)?;
         }
         let [x, y, radius, from, to] = indexed(|k| k).map(|k| term(&items[k]));
@@ -143,21 +144,23 @@ impl CentreLine {
             format!("{from}+atan2({turned},0)"),
         ];
         let drawn = drawn.map(|text| reader.compose(&text));
-        Some(Self { form: Form::Arc(turned), length, drawn: Some(drawn) })
+        Some(Self { form: LineForm::Arc(turned), length, drawn: Some(drawn) })
     }
 
     /// Position and angle at an arc length, in the frame of the first end.
     pub fn place(&self, reader: &mut Reader<'_>, s: &str) -> [Tape; 3] {
         match &self.form {
-            Form::Straight => [reader.compose(s), Tape::from(0.0), Tape::from(0.0)],
-            Form::Arc(turned) => {
-                let (angle, radius) =
-                    (format!("({turned}*({s})/{})", self.length), format!("{}/{turned}", self.length));
+            LineForm::Straight => [reader.compose(s), Tape::from(0.0), Tape::from(0.0)],
+            LineForm::Arc(turned) => {
+                let (angle, radius) = (
+                    format!("({turned}*({s})/{})", self.length),
+                    format!("{}/{turned}", self.length),
+                );
                 let x = format!("{radius}*sin{angle}");
                 let y = format!("{radius}*2*sin({angle}/2)^2");
                 [x, y, angle].map(|text| reader.compose(&text))
             }
-            Form::Spline(curved) => {
+            LineForm::Spline(curved) => {
                 // the angle is continuous along the places before
                 let s = reader.value(s);
                 let steps = (64.0 * s / curved.length()).ceil().max(1.0) as usize;
@@ -172,13 +175,13 @@ impl CentreLine {
     pub fn strains(&self, reader: &mut Reader<'_>, start: &str, length: &str) -> Strains {
         let share = |xi: f64| 0.5 * (1.0 + xi);
         match &self.form {
-            Form::Straight => [[1.0; 3], [0.0; 3], [0.0; 3]].map(|all| all.map(Tape::from)),
-            Form::Arc(turned) => {
+            LineForm::Straight => [[1.0; 3], [0.0; 3], [0.0; 3]].map(|all| all.map(Tape::from)),
+            LineForm::Arc(turned) => {
                 // with δ the angle of the element: Σ 2 Nₖ′ (sin, -cos)(δ (σₖ - σ)) / δ
                 let delta = format!("({turned}*{length}/{})", self.length);
                 let sum = |function: &str, g: usize| {
                     let one = |k: usize| {
-                        let turn = share(PLACES[k]) - share(crate::elements::beam_line::GAUSS[g]);
+                        let turn = share(PLACES[k]) - share(GAUSS[g]);
                         let slope = 2.0 * AT_GAUSS[g].slope[k];
                         format!("({slope:?})*{function}(({turn:?})*{delta})")
                     };
@@ -189,7 +192,7 @@ impl CentreLine {
                 let curvature = [0, 1, 2].map(|_| format!("{turned}/{}", self.length));
                 [stretch, slide, curvature].map(|all| all.map(|text| reader.compose(&text)))
             }
-            Form::Spline(curved) => {
+            LineForm::Spline(curved) => {
                 let (start, length) = (reader.value(start), reader.value(length));
                 let at = PLACES.map(|xi| start + length * share(xi));
                 let poses = curved.places(&at).into_iter().map(|[x, y, a]| Pose::new(x, y, a));

@@ -1,11 +1,11 @@
 //! The division of a beam into elements.
 
-use super::nodes;
+use super::super::beam_names::PER_ELEMENT;
 use crate::elements::beam_line::PLACES;
 use crate::math::Listed;
 
 /// An element of a beam: the texts of its first arc length and its length, and its nodes along the beam.
-pub struct Element {
+pub struct BeamElement {
     pub start: String,
     pub length: String,
     pub nodes: [usize; 4],
@@ -15,7 +15,7 @@ pub struct Element {
 pub struct Division {
     /// The arc length of each node as text.
     pub at: Vec<String>,
-    pub elements: Vec<Element>,
+    pub elements: Vec<BeamElement>,
     /// Whether a node is a place with a name.
     pub named: Vec<bool>,
 }
@@ -33,7 +33,8 @@ pub fn divide(places: &[(String, f64)], elements: usize) -> Division {
         });
         longest.into_iter().for_each(|k| counts[k] += 1);
     }
-    let mut made = Division { at: vec![places[0].0.clone()], elements: Vec::new(), named: vec![true] };
+    let mut made =
+        Division { at: vec![places[0].0.clone()], elements: Vec::new(), named: vec![true] };
     for (gap, count) in counts.iter().enumerate() {
         let (from, to) = (&places[gap].0, &places[gap + 1].0);
         let length = format!("(({to}-{from})/{count})");
@@ -47,8 +48,8 @@ pub fn divide(places: &[(String, f64)], elements: usize) -> Division {
             let last = k + 1 == *count;
             made.at.push(if last { to.clone() } else { format!("({from}+{}*{length})", k + 1) });
             made.named.push(last);
-            let nodes = [first, first + 1, first + 2, first + nodes::PER_ELEMENT];
-            made.elements.push(Element { start, length: length.clone(), nodes });
+            let nodes = [first, first + 1, first + 2, first + PER_ELEMENT];
+            made.elements.push(BeamElement { start, length: length.clone(), nodes });
         }
     }
     made

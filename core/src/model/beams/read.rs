@@ -1,24 +1,19 @@
 //! From the entry of a beam to its nodes, its elastic pieces, and the welds of its rigid form.
 
-use super::super::bodies::{term, Reader};
+use super::super::beam_names::{self as nodes, BEAM, NODE, WELD};
+use super::super::body_reader::{term, Reader};
 use super::super::definition::Value;
 use super::super::items::Body;
+use super::super::scope::Reach;
 use super::centre_line::CentreLine;
 use super::pieces::{divide, Division};
 use super::stiffness::{self, Stiffness};
-use super::{nodes, BEAM, NODE};
 use crate::elements::beam_line::{NODES, SHARES};
-use crate::elements::{elastic_piece, welded, BodyId, Constraint, ForceElement, PieceNumbers, PointOn};
+use crate::elements::{
+    elastic_piece, welded, BodyId, Constraint, ForceElement, PieceNumbers, PointOn,
+};
 use crate::expression::Tape;
 use crate::math::{Listed, Local};
-
-/// The end of the name of a weld of the rigid form.
-const WELD: &str = " (rigid)";
-
-/// Whether a constraint of this name is a weld of the rigid form.
-pub fn is_weld(name: &str) -> bool {
-    name.ends_with(WELD)
-}
 
 /// A linked beam.
 pub struct Linked {
@@ -58,7 +53,7 @@ fn zero() -> Local<Tape> {
 }
 
 /// What the entry of a beam contains.
-struct Parts {
+struct BeamParts {
     line: CentreLine,
     stiffness: Stiffness,
     damping: Option<Tape>,
@@ -66,7 +61,7 @@ struct Parts {
     places: Vec<(String, String, f64)>,
 }
 
-fn parts(reader: &mut Reader<'_>) -> Option<Parts> {
+fn parts(reader: &mut Reader<'_>) -> Option<BeamParts> {
     refused(reader);
     let (line, stiffness) = (CentreLine::read(reader), stiffness::read(reader));
     let damping = match reader.entry.get("damping") {
@@ -75,13 +70,16 @@ fn parts(reader: &mut Reader<'_>) -> Option<Parts> {
     };
     let line = line?;
     let places = places(reader, &line.length)?;
-    Some(Parts { line, stiffness: stiffness?, damping, places })
+    Some(BeamParts { line, stiffness: stiffness?, damping, places })
 }
 
 /// Reports what is not computed yet.
 fn refused(reader: &mut Reader<'_>) {
     if reader.entry.get("shear") == Some(&Value::Flag(false)) {
-        reader.report("shear", "beams without shear are not computed yet; remove shear, and give GA or a section");
+        reader.report(
+            "shear",
+            "beams without shear are not computed yet; remove shear, and give GA or a section",
+        );
     }
     if reader.entry.get("inextensible") == Some(&Value::Flag(true)) {
         reader.report("inextensible", "inextensible beams are not computed yet; remove inextensible, and give EA or a section");
@@ -93,11 +91,13 @@ fn places(reader: &mut Reader<'_>, length: &str) -> Option<Vec<(String, String, 
     let [first, last] = nodes::ends(reader.entry);
     let whole = reader.value(length);
     if !(whole.is_finite() && whole > 0.0) {
-        let key = ["length", "through", "arc"].into_iter().find(|key| reader.entry.get(key).is_some());
+        let key =
+            ["length", "through", "arc"].into_iter().find(|key| reader.entry.get(key).is_some());
         reader.report(key.unwrap_or("length"), &format!("{whole} m; must be > 0"));
         return None;
     }
-    let mut all = vec![(first.clone(), "0".to_string(), 0.0), (last.clone(), length.to_string(), whole)];
+    let mut all =
+        vec![(first.clone(), "0".to_string(), 0.0), (last.clone(), length.to_string(), whole)];
     if first == last {
         reader.report("ends", "must name two different points, such as [\"A\", \"B\"]");
         return None;
@@ -105,7 +105,10 @@ fn places(reader: &mut Reader<'_>, length: &str) -> Option<Vec<(String, String, 
     for (name, value) in nodes::points(reader.entry) {
         let place = ["points", name].join(".");
         if name.contains('.') || name.starts_with('#') {
-            reader.report("points", &format!("'{name}': a name must not contain '.' or begin with '#'"));
+            reader.report(
+                "points",
+                &format!("'{name}': a name must not contain '.' or begin with '#'"),
+            );
             return None;
         }
         let text = arc_length(reader, (name, value), length)?;
@@ -122,8 +125,13 @@ fn places(reader: &mut Reader<'_>, length: &str) -> Option<Vec<(String, String, 
             reader.report("points", &message);
             return None;
         }
-        if let Some((other, ..)) = all.iter().find(|(_, _, known)| (*known - at).abs() < 1e-9 * whole) {
-            reader.report("points", &format!("{name} is at the same place as {other}; remove one of them"));
+        if let Some((other, ..)) =
+            all.iter().find(|(_, _, known)| (*known - at).abs() < 1e-9 * whole)
+        {
+            reader.report(
+                "points",
+                &format!("{name} is at the same place as {other}; remove one of them"),
+            );
             return None;
         }
         all.push((name.clone(), text, at));
@@ -148,7 +156,7 @@ fn arc_length(
         Some(share) => (Value::Text(share.to_string()), ""),
         None => (value.clone(), "m"),
     };
-    let reach = super::super::scope::Reach::Parameters;
+    let reach = Reach::Parameters;
     reader.scope.formula(&value, &path, unit, reach, reader.problems)?;
     Some(match share {
         Some(share) => format!("(({share})/100*{length})"),
@@ -162,7 +170,10 @@ fn count(reader: &mut Reader<'_>) -> Option<()> {
     match (reader.entry.get("elements"), written) {
         (Some(_), None) => {
             let most = nodes::MOST;
-            reader.report("elements", &format!("must be a whole number from 1 to {most}, not a formula"));
+            reader.report(
+                "elements",
+                &format!("must be a whole number from 1 to {most}, not a formula"),
+            );
             None
         }
         (_, Some(written)) if written < least => {
@@ -176,7 +187,7 @@ fn count(reader: &mut Reader<'_>) -> Option<()> {
     }
 }
 
-impl Parts {
+impl BeamParts {
     fn link(self, reader: &mut Reader<'_>, first: BodyId) -> Linked {
         let along = self.places.iter().map(|(_, text, x)| (text.clone(), *x)).list();
         let division = divide(&along, nodes::elements(reader.entry));

@@ -1,8 +1,8 @@
 //! The elastic and the rigid form of linked beams in a blueprint.
 
+use super::super::beam_names::beam_of;
 use super::super::blueprint::Blueprint;
 use super::super::items::Body;
-use super::beam_of;
 use super::read::Linked;
 use crate::elements::Group;
 use crate::expression::Tape;

@@ -1,7 +1,8 @@
 //! Stiffness and mass of a beam: from a section and a material, or as given.
 
-use super::super::bodies::{term, Reader};
+use super::super::body_reader::{term, Reader};
 use super::super::definition::Value;
+use super::super::scope::Reach;
 use crate::expression::Tape;
 use crate::math::Listed;
 
@@ -19,7 +20,7 @@ pub struct Stiffness {
 }
 
 /// A cross section, as texts.
-struct Shape {
+struct SectionTexts {
     area: String,
     /// Second moment of area.
     second: String,
@@ -53,12 +54,11 @@ fn as_given(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
     if let Some(key) = needed.iter().find(|key| reader.entry.get(key).is_none()) {
         let or = if *key == "GA" { ", or write shear = false" } else { "" };
         let all = needed.join(", ");
-        reader.missing(&format!(
-            "'{key}' is missing; give section and young, or all of {all}{or}"
-        ));
+        reader.missing(&format!("'{key}' is missing; give section and young, or all of {all}{or}"));
         return None;
     }
-    let [axial, bending] = [("EA", "N"), ("EI", "N*m^2")].map(|(key, unit)| reader.number(key, unit));
+    let [axial, bending] =
+        [("EA", "N"), ("EI", "N*m^2")].map(|(key, unit)| reader.number(key, unit));
     let shear = match reader.entry.get("GA") {
         Some(_) => reader.number("GA", "N"),
         None => Some(Tape::from(1.0)),
@@ -73,7 +73,8 @@ fn as_given(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
 fn of_section(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
     for key in GIVEN {
         if reader.entry.get(key).is_some() {
-            let message = format!("given beside section, which determines it; remove {key} or section");
+            let message =
+                format!("given beside section, which determines it; remove {key} or section");
             reader.report(key, &message);
             return None;
         }
@@ -97,7 +98,7 @@ fn of_section(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
         reader.report("poisson", &format!("{of}; must be between -1 and 0.5"));
         return None;
     }
-    let Shape { area, second, face, factor } = shape;
+    let SectionTexts { area, second, face, factor } = shape;
     let axial = reader.compose(&format!("{young}*{area}"));
     let bending = reader.compose(&format!("{young}*{second}"));
     let shear = match sheared {
@@ -111,11 +112,7 @@ fn of_section(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
 }
 
 /// Mass and moment of inertia per length. `radius` is the squared radius of gyration of the section.
-fn masses(
-    reader: &mut Reader<'_>,
-    area: Option<&str>,
-    radius: &str,
-) -> Option<(String, String)> {
+fn masses(reader: &mut Reader<'_>, area: Option<&str>, radius: &str) -> Option<(String, String)> {
     let given = |reader: &Reader<'_>, key: &str| reader.entry.get(key).map(term);
     let mass = match (given(reader, "density"), given(reader, "mass_per_length"), area) {
         (Some(_), Some(_), _) => {
@@ -131,8 +128,11 @@ fn masses(
             mass
         }
         _ => {
-            let key = if area.is_some() { "'density' or 'mass_per_length'" } else { "'mass_per_length'" };
-            reader.missing(&format!("{key} is missing; it may be 0 where only equilibria are computed"));
+            let key =
+                if area.is_some() { "'density' or 'mass_per_length'" } else { "'mass_per_length'" };
+            reader.missing(&format!(
+                "{key} is missing; it may be 0 where only equilibria are computed"
+            ));
             return None;
         }
     };
@@ -146,8 +146,9 @@ fn masses(
     Some((format!("({mass})"), inertia))
 }
 
-fn shape(reader: &mut Reader<'_>) -> Option<Shape> {
-    let form = "{ rectangle = [height, width] }, { circle = diameter } or { tube = [outer, inner] }";
+fn shape(reader: &mut Reader<'_>) -> Option<SectionTexts> {
+    let form =
+        "{ rectangle = [height, width] }, { circle = diameter } or { tube = [outer, inner] }";
     let Some(Value::Table(fields)) = reader.entry.get("section") else {
         reader.report("section", &format!("must be {form}"));
         return None;
@@ -163,7 +164,7 @@ fn shape(reader: &mut Reader<'_>) -> Option<Shape> {
             items.iter().map(term).list()
         }
         ("circle", value) => {
-            let reach = super::super::scope::Reach::Parameters;
+            let reach = Reach::Parameters;
             reader.scope.formula(value, &path, "m", reach, reader.problems)?;
             vec![term(value)]
         }
@@ -179,14 +180,23 @@ fn shape(reader: &mut Reader<'_>) -> Option<Shape> {
         && !(kind == "tube" && numbers[1] >= numbers[0]);
     if !possible && numbers.iter().all(|x| !x.is_nan()) {
         let words = numbers.iter().map(|x| format!("{x} m")).list().join(" and ");
-        let must = if kind == "tube" { "the outer diameter must be larger than the inner one" } else { "must be > 0" };
+        let must = if kind == "tube" {
+            "the outer diameter must be larger than the inner one"
+        } else {
+            "must be > 0"
+        };
         reader.report("section", &format!("{kind} of {words}; {must}"));
         return None;
     }
-    Some(match kind.as_str() {
+    Some(texts_of(kind, &texts))
+}
+
+/// Area, second moment of area, distance of the faces and shear factor of a section with these dimensions.
+fn texts_of(kind: &str, texts: &[String]) -> SectionTexts {
+    match kind {
         "rectangle" => {
             let (h, w) = (&texts[0], &texts[1]);
-            Shape {
+            SectionTexts {
                 area: format!("({h}*{w})"),
                 second: format!("({w}*{h}^3/12)"),
                 face: format!("({h}/2)"),
@@ -195,7 +205,7 @@ fn shape(reader: &mut Reader<'_>) -> Option<Shape> {
         }
         "circle" => {
             let d = &texts[0];
-            Shape {
+            SectionTexts {
                 area: format!("(pi*{d}^2/4)"),
                 second: format!("(pi*{d}^4/64)"),
                 face: format!("({d}/2)"),
@@ -204,12 +214,12 @@ fn shape(reader: &mut Reader<'_>) -> Option<Shape> {
         }
         _ => {
             let (outer, inner) = (&texts[0], &texts[1]);
-            Shape {
+            SectionTexts {
                 area: format!("(pi*({outer}^2-{inner}^2)/4)"),
                 second: format!("(pi*({outer}^4-{inner}^4)/64)"),
                 face: format!("({outer}/2)"),
                 factor: "0.5",
             }
         }
-    })
+    }
 }

@@ -20,7 +20,11 @@ _STATIONS = 5
 #: The results of an element, each in all places.
 _ALONG = ("s", "x", "y", "angle", "normal_force", "shear_force", "bending_moment", "stress")
 #: The results of an element as a whole: name, unit, and how those of all elements are joined.
-WHOLE = (("stress", "Pa", np.max), ("bending_moment", "N*m", np.max), ("strain_energy", "J", np.sum))
+WHOLE = (
+    ("stress", "Pa", np.max),
+    ("bending_moment", "N*m", np.max),
+    ("strain_energy", "J", np.sum),
+)
 
 
 def pieces(compiled: CompiledModel, name: str) -> list[str]:
@@ -62,10 +66,13 @@ class BeamView:
         """Name of the beam."""
         return self.info.name
 
+    @property
+    def _pieces(self) -> list[str]:
+        return pieces(self._motion.compiled, self.name)
+
     @cached_property
     def _tables(self) -> list[Floats]:
-        names = pieces(self._motion.compiled, self.name)
-        return [self._motion.force_results(name) for name in names]
+        return [self._motion.force_results(name) for name in self._pieces]
 
     def _along(self, quantity: str) -> Floats:
         first = _STATIONS * _ALONG.index(quantity)
@@ -127,6 +134,22 @@ class BeamView:
         """Elastic energy, (n_t,), in a state a float, J."""
         found = whole(self._motion, self.name, "strain_energy")
         return float(found) if np.ndim(found) == 0 else fixed(found)
+
+    @property
+    def error(self) -> float:
+        """Estimate of the error of the bending moment, relative to its largest magnitude.
+
+        It is the largest difference of the bending moment between the two sides of a place where
+        elements meet and no point has a name. More elements make it smaller.
+        """
+        moment = self.bending_moment
+        largest = np.abs(moment).max(initial=0.0)
+        # a joint or torque at a named point may make the moment jump
+        ends = [self._motion.compiled.forces[piece].j for piece in self._pieces[:-1]]
+        inner = [k for k, node in enumerate(ends) if ".#" in node]
+        after = [_STATIONS * (k + 1) for k in inner]
+        jumps = np.abs(moment[..., after] - moment[..., [k - 1 for k in after]])
+        return float(jumps.max(initial=0.0) / largest) if largest > 0.0 else 0.0
 
     def __repr__(self) -> str:
         return f"<beam {self.name!r}: {len(self._tables)} elements, {self.s[-1]:g} m>"

@@ -1,7 +1,37 @@
 //! The names of the nodes of a beam, which follow from its entry without any number.
+//!
+//! The first node has the name of the beam. The others have names with a full stop, such as `rod.B`, which no body of a
+//! file can have.
 
-use super::super::definition::{Entry, Value};
+use super::definition::{Entry, Value};
 use crate::math::Listed;
+
+/// The `type` of a beam.
+pub const BEAM: &str = "beam";
+/// The kind of the bodies that are the further nodes of a beam.
+pub const NODE: &str = "node";
+/// The end of the name of a weld of the rigid form.
+pub const WELD: &str = " (rigid)";
+
+/// Whether an entry of the bodies is a beam.
+pub fn is_beam(entry: &Entry) -> bool {
+    matches!(entry.get("type"), Some(Value::Text(kind)) if kind == BEAM)
+}
+
+/// Whether a constraint of this name is a weld of the rigid form.
+pub fn is_weld(name: &str) -> bool {
+    name.ends_with(WELD)
+}
+
+/// Whether a body is a node of a beam without a name of the file.
+pub fn is_inner(name: &str) -> bool {
+    name.contains(".#")
+}
+
+/// The name of the beam to which an item with a name made here belongs, such as `rod` for `rod.B`.
+pub fn beam_of(name: &str) -> &str {
+    name.split_once('.').map_or(name, |(beam, _)| beam)
+}
 
 /// Number of elements if it is not given.
 const DEFAULT_ELEMENTS: usize = 4;
@@ -57,4 +87,15 @@ pub fn names(entry: &Entry) -> Vec<String> {
     let places: Vec<String> = places.map(|place| format!("{}.{place}", entry.name)).list();
     let inner_nodes = PER_ELEMENT * elements(entry) - places.len();
     places.into_iter().chain((0..inner_nodes).map(|k| inner(&entry.name, k))).list()
+}
+
+/// The names of a moving body in the order of q: those of all its nodes, if it is a beam.
+pub fn body_names(entry: &Entry) -> Vec<String> {
+    let further = if is_beam(entry) { names(entry) } else { Vec::new() };
+    std::iter::once(entry.name.clone()).chain(further).list()
+}
+
+/// A second name of the first node of a beam: that of the first end.
+pub fn first_end(entry: &Entry) -> Option<String> {
+    is_beam(entry).then(|| format!("{}.{}", entry.name, ends(entry)[0]))
 }

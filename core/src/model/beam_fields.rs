@@ -1,21 +1,26 @@
 //! The fields of a beam as data.
 
-use super::BEAM;
+use super::beam_names::BEAM;
 use crate::elements::{Default, Field, Shape, Table};
 
 fn number(name: &'static str, unit: &str, doc: &str) -> Field {
-    Field::optional(name, Shape::Number, unit, Default::Absent, doc)
+    absent(name, Shape::Number, unit, doc)
+}
+
+fn absent(name: &'static str, shape: Shape, unit: &str, doc: &str) -> Field {
+    Field::optional(name, shape, unit, Default::Absent, doc)
 }
 
 /// The declaration of a beam.
 pub fn beam() -> Table {
-    let absent = |name, shape, unit, doc| Field::optional(name, shape, unit, Default::Absent, doc);
     let doc = "A link that bends: a geometrically exact beam with stretch, shear and bending. Its ends and named \
     points are points for joints, forces and measures; its frame is that of its first end, with x along the tangent.";
-    Table {
-        name: BEAM,
-        doc: doc.to_string(),
-        fields: vec![
+    Table { name: BEAM, doc: doc.to_string(), fields: [line(), material(), more()].concat() }
+}
+
+/// Its ends and its centre line.
+fn line() -> Vec<Field> {
+    vec![
             absent("ends", Shape::Names, "", "Names of the first and the last end; A and B if absent."),
             number("length", "m", "Length of a straight beam."),
             absent(
@@ -31,6 +36,12 @@ pub fn beam() -> Table {
                 "m",
                 "A circular centre line when assembly starts: [x, y of the centre, radius, first angle, last angle].",
             ),
+    ]
+}
+
+/// Stiffness and mass.
+fn material() -> Vec<Field> {
+    vec![
             absent(
                 "section",
                 Shape::Section,
@@ -50,6 +61,11 @@ pub fn beam() -> Table {
                 "kg*m",
                 "Moment of inertia of the sections per length; mass_per_length × EI / EA if absent.",
             ),
+    ]
+}
+
+fn more() -> Vec<Field> {
+    vec![
             number("damping", "s", "Damping in proportion to stiffness: efforts per rate of strain / stiffness."),
             absent("elements", Shape::Count, "", "Number of elements of the third degree; chosen if absent."),
             absent(
@@ -66,6 +82,5 @@ pub fn beam() -> Table {
                 Default::Flag(false),
                 "Whether the centre line keeps its length.",
             ),
-        ],
-    }
+    ]
 }
