@@ -12,7 +12,7 @@ use crate::math::{Local, Pose, Real, Rotation, Twist, Vec2};
 pub const NODES: usize = 4;
 
 /// 1/√5.
-const INNER: f64 = 0.447_213_595_499_957_94;
+const INNER: f64 = 0.447_213_595_499_958;
 /// The nodes in ξ.
 pub const PLACES: [f64; NODES] = [-1.0, -INNER, INNER, 1.0];
 /// The parts of the length that the nodes carry: the weights of the Gauss–Lobatto rule, divided by two.
@@ -77,6 +77,7 @@ pub struct Section<S> {
 }
 
 /// The section at a place of a piece. `per_length` is dξ/ds.
+#[allow(clippy::needless_range_loop)] // loops over indices are inlined without optimisation across crates
 #[inline(always)]
 pub fn section<S: Real>(nodes: [&Pose<S>; NODES], of: &Interpolated, per_length: S) -> Section<S> {
     let first = nodes[0];
@@ -99,6 +100,7 @@ pub fn section<S: Real>(nodes: [&Pose<S>; NODES], of: &Interpolated, per_length:
 
 impl<S: Real> Section<S> {
     /// The rates of the tangent in the frame of the section, and of the curvature, for the twists of the nodes.
+    #[allow(clippy::needless_range_loop)] // as in `section`
     #[inline(always)]
     pub fn rates(
         &self,

@@ -113,18 +113,15 @@ class BodyMethods:
         """Add a beam: a link that bends, stretches and shears, at large rotations.
 
         Its ends and named points are points for joints, forces and measures, and have an angle,
-        such as ``rod.B.angle``. The frame of the beam is that of its first end, with x along the
-        tangent. A beam starts without stress. ``solution.beam(name)`` has its internal forces.
+        such as ``rod.B.angle``. Its frame is that of its first end, with x along the tangent.
 
         Args:
             name: name of the beam.
             ends: names of the first and the last end; A and B by default.
             length: of a straight beam, m.
-            through: global positions of points of the centre line when assembly starts, m: a
-                straight line through two, a natural cubic spline through more.
+            through: global positions of points of the centre line when assembly starts, m.
             arc: centre x and y, radius, first and last angle of a circular centre line, m and rad.
-            section: cross section, such as ``kp.Section.rectangle(height=0.01, width=0.02)``; the
-                height lies in the plane.
+            section: such as ``kp.Section.rectangle(height=0.01, width=0.02)``.
             young: Young's modulus of the section, Pa.
             poisson: Poisson's ratio of the section; 0.3 by default.
             density: of the section, kg/m³.
@@ -132,19 +129,17 @@ class BodyMethods:
             EI: bending stiffness, N·m².
             GA: effective shear stiffness, N.
             mass_per_length: kg/m, in place of density.
-            inertia_per_length: moment of inertia of the sections per length, kg·m; by default
-                mass_per_length·EI/EA.
+            inertia_per_length: of the sections, kg·m; by default mass_per_length·EI/EA.
             damping: efforts per rate of strain, relative to the stiffness, s; 0 by default.
             elements: number of elements of the third degree, each with three nodes of its own.
-            points: further named points by their arc lengths from the first end, m, or shares such
-                as ``"50 %"``.
+            points: further named points by their arc lengths, m, or shares such as ``"50 %"``.
             shear: whether the sections may shear.
             inextensible: whether the centre line keeps its length.
         """
-        form = (ends, length, through, arc)
-        material = (section, young, poisson, density, EA, EI, GA, mass_per_length)
-        rest = (inertia_per_length, damping, elements, points, shear, inextensible)
-        return self._add(Beam(name, *form, *material, *rest))
+        line = (ends, length, through, arc, section, young, poisson, density, EA, EI, GA)
+        masses = (mass_per_length, inertia_per_length, damping)
+        given = (*line, *masses, elements, points, shear, inextensible)
+        return self._add(Beam(name, *given))
 
     def point_mass(
         self, name: str, *, mass: Number, at: Pair | None = None, outline: Outline | None = None

@@ -117,7 +117,7 @@ pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
 }
 
 /// The failure of a mechanism with rigid beams.
-pub(super) fn of_rigid(failure: Box<Failure>) -> Box<Failure> {
+pub(super) fn of_rigid(failure: Failure) -> Box<Failure> {
     let hint = match failure.fault {
         Fault::Open => format!(
             "{}; beams start unbent: to bend one by its joints, start where the mechanism closes with rigid \
@@ -126,7 +126,7 @@ pub(super) fn of_rigid(failure: Box<Failure>) -> Box<Failure> {
         ),
         _ => failure.hint.clone(),
     };
-    Box::new(Failure { hint, ..*failure })
+    Box::new(Failure { hint, ..failure })
 }
 
 /// The table that a law evaluates outside its range.

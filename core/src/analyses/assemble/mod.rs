@@ -152,7 +152,8 @@ impl Complete {
 fn complete(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete, Box<Failure>> {
     match model.rigid().filter(|_| request.state.is_none()) {
         Some(rigid) => {
-            let start = elastic(&rigid, request, stop).map_err(failure::of_rigid)?;
+            let start =
+                elastic(&rigid, request, stop).map_err(|failure| failure::of_rigid(*failure))?;
             let state = Some(start.state.clone());
             let closed =
                 elastic(model, &Request { state, guess: Vec::new(), ..request.clone() }, stop)?;

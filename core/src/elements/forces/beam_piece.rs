@@ -105,6 +105,7 @@ fn per_length<S: Real>(e: &BeamPiece<S>) -> S {
 }
 
 /// Adds the wrenches of the efforts in Gauss point `g` on the nodes.
+#[allow(clippy::needless_range_loop)] // loops over indices are inlined without optimisation across crates
 #[inline(always)]
 fn add<S: Real>(
     e: &BeamPiece<S>,
@@ -216,6 +217,7 @@ impl Force for BeamPiece {
         vec![e.i, e.j, e.second, e.third]
     }
 
+    #[allow(clippy::needless_range_loop)] // as in `add`
     #[inline(always)]
     fn action<S: Real>(e: &BeamPiece<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         let (nodes, per_length) = (poses(at), per_length(e));
@@ -239,6 +241,7 @@ impl Force for BeamPiece {
         }
     }
 
+    #[allow(clippy::needless_range_loop)] // as in `add`
     fn potential<S: Real>(e: &BeamPiece<S>, at: &Situation<'_, S>) -> S {
         let (nodes, per_length) = (poses(at), per_length(e));
         let mut sum = S::zero();

@@ -52,8 +52,11 @@ fn as_given(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
     }
     let needed = if sheared { &GIVEN[..] } else { &GIVEN[..2] };
     if let Some(key) = needed.iter().find(|key| reader.entry.get(key).is_none()) {
-        let or = if *key == "GA" { ", or write shear = false" } else { "" };
-        let all = needed.join(", ");
+        let or = match *key {
+            "GA" => "; a GA as large as EA leaves little shear",
+            _ => "",
+        };
+        let all = GIVEN.join(", ");
         reader.missing(&format!("'{key}' is missing; give section and young, or all of {all}{or}"));
         return None;
     }
@@ -63,6 +66,14 @@ fn as_given(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
         Some(_) => reader.number("GA", "N"),
         None => Some(Tape::from(1.0)),
     };
+    for key in GIVEN {
+        // a quotient of two of them follows
+        let x = reader.entry.get(key).map_or(1.0, |value| reader.value(&term(value)));
+        if x <= 0.0 {
+            reader.report(key, &format!("{x}; must be > 0"));
+            return None;
+        }
+    }
     let texts = ["EA", "EI"].map(|key| reader.entry.get(key).map_or(String::new(), term));
     let (mass, inertia) = masses(reader, None, &format!("{}/{}", texts[1], texts[0]))?;
     let (by_force, by_moment) = (Tape::from(0.0), Tape::from(0.0));
