@@ -143,6 +143,7 @@ if TYPE_CHECKING:
     from kempe.lab_report import write_report as write_report
     from kempe.loading import load as load
     from kempe.mjcf.writer import write_mjcf as write_mjcf
+    from kempe.model.beams import Section as Section
     from kempe.model.doubts import ModelWarning as ModelWarning
     from kempe.model.functions import Function as Function
     from kempe.model.functions import FunctionWarning as FunctionWarning
@@ -245,6 +246,7 @@ _HOME = {
     "SavedStep": "stepping",
     "SingularityError": "errors",
     "Solution": "results.solution",
+    "Section": "model.beams",
     "Start": "analyses.start",
     "State": "results.state",
     "Stepper": "stepping",

@@ -51,13 +51,16 @@ def of_model(model: Model) -> str:
             picture = drawing(assemble(model))
         bodies = [
             (str(body.number), body.name, body.type, f"{body.mass:.6g}", f"{body.inertia:.6g}")
-            for body in model.bodies.values()
+            for body in model.compile().shown_bodies.values()
         ]
     except KempeError as error:  # a model that is not finished
         return block(model.title, paragraph(repr(model)), paragraph(str(error)))
     tables = [table(("", "body", "type", "mass / kg", "inertia / kg·m²"), bodies)]
     rows = [(joint.name, joint.type, joint.i, joint.j) for joint in model.constraints.values()]
-    rows += [(force.name, force.type, force.i, force.j) for force in model.forces.values()]
+    rows += [
+        (force.name, force.type, force.i, force.j)
+        for force in model.compile().shown_forces.values()
+    ]
     if rows:
         tables.append(table(("element", "type", "body i", "body j"), rows))
     return block(model.title, picture, *tables)

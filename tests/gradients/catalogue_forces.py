@@ -362,7 +362,31 @@ def bouncing(of: Units) -> Made:
     return Made(m, [*measures, "touch.gap.final"], start, end=3.5, changes=True)
 
 
+def bending(of: Units) -> Made:
+    """A clamped beam with a load at its tip and a point on it."""
+    s, pressure = of.size, of.force / of.size**2
+    m = of.model(
+        L=(1, s),
+        h=(0.12, s),
+        w=(0.1, s),
+        E=(2e5, pressure),
+        rho=(80, of.mass / s**3),
+        d=(0.01, 1 / of.rate),
+        p=(2, of.force),
+    )
+    m.ground.points(O=(0, 0))
+    section = kp.Section.rectangle(height="h", width="w")
+    given = {"young": "E", "density": "rho", "damping": "d", "points": {"P": "40 %"}}
+    m.beam("rod", length="L", section=section, elements=2, **given)
+    m.weld("clamp", "ground.O", "rod.A")
+    m.force("load", "rod.B", force=(0, "-p"))
+    measures = ["rod.B.y.final", "rod.P.angle.final", "rod.stress.final"]
+    measures += ["rod.bending_moment.final", "rod.strain_energy.final", "clamp.torque.final"]
+    return Made(m, measures, {}, end=0.3, analyses=RESTS)
+
+
 FORCES: list[Maker] = [
+    bending,
     spiral,
     coil,
     resting_coil,

@@ -82,6 +82,17 @@ angle = "30 deg"
 type = "polygon"
 points = [[0, 0], [1, 0], [0, 1]]
 mass = 2
+[bodies.strip]
+type = "beam"
+ends = ["E", "F"]
+length = 0.5
+section = { rectangle = [0.01, "20 mm"] }
+young = "210 GPa"
+density = 7850
+damping = 1e-4
+elements = 2
+points = { G = 0.1 }
+
 [bodies.e]
 type = "point_mass"
 outline = { path = "M 0 0 h 1" }

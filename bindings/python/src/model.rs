@@ -352,6 +352,7 @@ fn force(model: &Model, k: usize) -> Value {
         "reaction": item.reaction.map(|joint| model.constraints[joint.0].name.as_str()),
         "points": points.map(|ends| ends.each_ref().map(pair)),
         "results": item.element.result_quantities().iter().map(of_result).collect::<Vec<_>>(),
+        "is_shown": item.element.in_files(),
         "reads_multipliers": item.needs_multipliers(),
         "measured": measured(item.element.measured()),
     })

@@ -4,7 +4,7 @@ use super::signals::{Energy, ForcePart, Signal};
 use crate::elements::{BodyId, Followed, Measured};
 use crate::equations::measured::{offered, ElementId};
 use crate::math::Listed;
-use crate::model::{Columns, Model};
+use crate::model::{beam_of, is_inner, Columns, Model, BEAM};
 
 /// The quantities of one owner with their names.
 type Family = Vec<(String, Signal)>;
@@ -31,12 +31,14 @@ pub(super) fn names(model: &Model, like: &str) -> Vec<String> {
 }
 
 fn owners(model: &Model) -> Vec<String> {
-    let points = model.bodies.iter().flat_map(|body| {
+    let shown = model.bodies.iter().filter(|body| !is_inner(&body.name));
+    let points = shown.flat_map(|body| {
         let points = body.points.iter().map(|(point, _)| format!("{}.{point}", body.name));
         std::iter::once(body.name.clone()).chain(points)
     });
     let constraints = model.constraints.iter().map(|item| item.name.clone());
-    let forces = model.listed_forces().iter().map(|item| item.name.clone());
+    let of_file = model.listed_forces().iter().filter(|item| item.element.in_files());
+    let forces = of_file.map(|item| item.name.clone());
     let of_run = ["energy", "drift"].map(str::to_string);
     points.chain(constraints).chain(forces).chain(of_run).list()
 }
@@ -85,7 +87,31 @@ fn of_body(model: &Model, body: BodyId) -> Family {
     };
     let count = if body.is_ground() { 3 } else { columns.count };
     let places = (0..3).flat_map(|order| (0..count).map(move |k| (order, k)));
-    places.map(|(order, k)| (COORDINATES[order][k].to_string(), signal(order, k))).list()
+    let mut found =
+        places.map(|(order, k)| (COORDINATES[order][k].to_string(), signal(order, k))).list();
+    if model.bodies[body.0].kind == BEAM {
+        of_beam(model, &model.bodies[body.0].name, &mut found);
+    }
+    found
+}
+
+/// Adds the largest stress and bending moment of a beam, and its strain energy.
+fn of_beam(model: &Model, beam: &str, found: &mut Family) {
+    let of_it = |k: &usize| {
+        let item = &model.forces[*k];
+        !item.element.in_files() && beam_of(&item.name) == beam
+    };
+    let pieces = (0..model.forces.len()).filter(of_it).list();
+    let Some(first) = pieces.first() else { return };
+    let results = model.forces[*first].element.result_quantities();
+    for (name, sum) in [("stress", false), ("bending_moment", false), ("strain_energy", true)] {
+        let place = results.iter().position(|known| known.name == name);
+        let known = name != "stress" || model.forces[*first].element.has_stress();
+        let signal = place
+            .filter(|_| known)
+            .map(|place| (name.to_string(), Signal::OfBeam { pieces: pieces.clone(), place, sum }));
+        found.extend(signal);
+    }
 }
 
 fn of_point(model: &Model, body: BodyId, point: &str) -> Option<Family> {

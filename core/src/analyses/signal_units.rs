@@ -18,6 +18,9 @@ pub(super) fn unit_of(model: &Model, name: &str, signal: &Signal) -> String {
         Signal::ForceResult { k, place } => {
             model.forces[*k].element.result_quantities()[*place].unit.to_string()
         }
+        Signal::OfBeam { pieces, place, .. } => {
+            model.forces[pieces[0]].element.result_quantities()[*place].unit.to_string()
+        }
         Signal::Result { k, place } => {
             model.constraints[*k].element.result_quantities()[*place].unit.to_string()
         }

@@ -98,6 +98,8 @@ pub(super) enum Signal {
     Line { id: ElementId },
     /// A result of a force element other than its wrenches.
     ForceResult { k: usize, place: usize },
+    /// A result of all force elements in a list: the largest, or the sum.
+    OfBeam { pieces: Vec<usize>, place: usize, sum: bool },
     /// Power of a force element on its bodies.
     ForcePower(usize),
     /// Energy that a force element stores.
@@ -133,7 +135,7 @@ impl Signal {
             Self::ForceResult { k, .. } | Self::ForceDissipated(k) | Self::ForceDissipating(k) => {
                 model.forces[*k].needs_multipliers()
             }
-            Self::Constant(_) | Self::State(_) | Self::Energy(_) => false,
+            Self::Constant(_) | Self::State(_) | Self::Energy(_) | Self::OfBeam { .. } => false,
             Self::Drift { .. } => false,
         }
     }
@@ -189,11 +191,13 @@ impl Signal {
             Self::Power(k, rate) => -own(model, *k, lam)[0] * rate.value(model, seen),
             Self::Force { k, part } => part.of(&force_on_j(model, *k, seen)),
             Self::Line { id } => line(model, *id, seen),
-            Self::ForceResult { k, place } => {
-                let count = model.forces[*k].element.result_quantities().len();
-                let mut out = vec![S::zero(); count];
-                forces::results(model, *k, seen.motions, seen.acting(), &mut out);
-                out[*place]
+            Self::ForceResult { k, place } => force_result(model, *k, *place, seen),
+            Self::OfBeam { pieces, place, sum } => {
+                let of = |k: &usize| force_result(model, *k, *place, seen);
+                pieces
+                    .iter()
+                    .map(of)
+                    .fold(S::zero(), |all, x| if *sum { all + x } else { all.max(x) })
             }
             Self::ForcePower(k) => power(model, *k, seen),
             Self::ForceEnergy(k) => forces::potential(model, *k, seen.motions, seen.acting()),
@@ -227,6 +231,12 @@ fn reaction<S: Real>(model: &Model<S>, k: usize, lam: &[S], seen: &Seen<'_, S>) 
     let (on, own) = (body_j(&model.constraints[k].bodies), own(model, k, lam));
     let found = reactions::reaction(model, k, on, Frame::Global, seen.motions, seen.t, own);
     found.unwrap_or_else(Wrench::zero)
+}
+
+fn force_result<S: Real>(model: &Model<S>, k: usize, place: usize, seen: &Seen<'_, S>) -> S {
+    let mut out = vec![S::zero(); model.forces[k].element.result_quantities().len()];
+    forces::results(model, k, seen.motions, seen.acting(), &mut out);
+    out[place]
 }
 
 fn force_on_j<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> Wrench<S> {

@@ -14,6 +14,9 @@ pub enum Bar {}
 /// A point with mass.
 #[derive(Clone, Copy, Debug)]
 pub enum PointMass {}
+/// A link that bends.
+#[derive(Clone, Copy, Debug)]
+pub enum Beam {}
 /// A rigid body of any form.
 #[derive(Clone, Copy, Debug)]
 pub enum General {}
@@ -121,6 +124,70 @@ impl BodyBuilder<'_, Bar> {
     /// Names of the points at (-length/2, 0) and (length/2, 0).
     pub fn ends(self, first: &str, last: &str) -> Self {
         self.with("ends", Value::List(vec![first.into(), last.into()]))
+    }
+}
+
+/// Declares the methods of a beam for fields with one value.
+macro_rules! of_beam {
+    ($($(#[$doc:meta])* $field:ident: $Type:ty),+ $(,)?) => {
+        impl BodyBuilder<'_, Beam> {
+            $($(#[$doc])*
+            pub fn $field(self, value: impl Into<$Type>) -> Self {
+                self.with(stringify!($field), value.into())
+            })+
+        }
+    };
+}
+
+of_beam! {
+    /// Length of a straight beam, m.
+    length: Number,
+    /// Global positions of points of the centre line when assembly starts, a list of pairs, m.
+    through: Value,
+    /// Centre x and y, radius, first and last angle of a circular centre line, a list of five numbers.
+    arc: Value,
+    /// Cross section: a table with one of the keys `rectangle`, `circle` and `tube`.
+    section: Value,
+    /// Young's modulus of a section, Pa.
+    young: Number,
+    /// Poisson's ratio of a section.
+    poisson: Number,
+    /// Density of a section, kg/m³.
+    density: Number,
+    /// Mass per length, kg/m.
+    mass_per_length: Number,
+    /// Moment of inertia of the sections per length, kg·m.
+    inertia_per_length: Number,
+    /// Damping in proportion to stiffness, s.
+    damping: Number,
+    /// Number of elements.
+    elements: Number,
+    /// Whether sections may shear.
+    shear: bool,
+    /// Whether the centre line keeps its length.
+    inextensible: bool,
+}
+
+impl BodyBuilder<'_, Beam> {
+    /// Names of the first and the last end.
+    pub fn ends(self, first: &str, last: &str) -> Self {
+        self.with("ends", Value::List(vec![first.into(), last.into()]))
+    }
+
+    /// Axial stiffness (N), bending stiffness (N·m²) and effective shear stiffness (N), in place of a section.
+    pub fn stiffness(
+        self,
+        axial: impl Into<Number>,
+        bending: impl Into<Number>,
+        shear: impl Into<Number>,
+    ) -> Self {
+        let of_two = self.with("EA", axial.into()).with("EI", bending.into());
+        of_two.with("GA", shear.into())
+    }
+
+    /// A named point by its arc length from the first end, m, or a share such as "50 %".
+    pub fn point(self, name: &str, s: impl Into<Number>) -> Self {
+        self.place("points", name, s.into())
     }
 }
 

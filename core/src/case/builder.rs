@@ -1,6 +1,6 @@
 //! A model written in Rust, with the same checks as a file.
 
-use super::body_builder::{Bar, BodyBuilder, General, Ground, PointMass};
+use super::body_builder::{Bar, Beam, BodyBuilder, General, Ground, PointMass};
 use super::{read, write, Case, Format};
 use crate::analyses::measures;
 use crate::elements::{catalogue, Element, Group, Number, Pair, Value, Written};
@@ -79,6 +79,11 @@ impl ModelBuilder {
     /// A point with mass and the named point P; it has no angle.
     pub fn point_mass(&mut self, name: &str) -> BodyBuilder<'_, PointMass> {
         BodyBuilder::new(self.body_of_type(name, "point_mass"))
+    }
+
+    /// A link that bends.
+    pub fn beam(&mut self, name: &str) -> BodyBuilder<'_, Beam> {
+        BodyBuilder::new(self.body_of_type(name, "beam"))
     }
 
     /// A rigid body of any form.

@@ -5,8 +5,8 @@ use super::report::{among, ProblemList};
 use super::tree::{Data, Node, Table};
 use super::values::{
     corners, count, curves, names, number, numbers, outline, pair, plain_numbers, points,
-    quantities, ranges, terms, tolerance, triple, two_columns, two_names, units, word, wrong,
-    TERMS,
+    quantities, ranges, section, terms, tolerance, triple, two_columns, two_names, units, word,
+    wrong, TERMS,
 };
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
@@ -110,6 +110,7 @@ pub(super) fn shape(report: &mut ProblemList, node: &Node, shape: Shape) {
         (Shape::Curves, _) => curves(report, node),
         (Shape::Shapes, _) => shapes(report, node),
         (Shape::Outline, _) => outline(report, node),
+        (Shape::Section, _) => section(report, node),
         (Shape::Corners, _) => corners(report, node),
         (Shape::Names, _) => two_names(report, node),
         (Shape::Numbers, _) => plain_numbers(report, node),

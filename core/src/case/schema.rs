@@ -197,6 +197,7 @@ fn property(f: &Field) -> Value {
         Shape::Curves => reference("curves"),
         Shape::Shapes => reference("shapes"),
         Shape::Outline => reference("outline"),
+        Shape::Section => reference("section"),
         Shape::Corners => reference("corners"),
         Shape::Body | Shape::Point | Shape::Coordinate | Shape::Joint | Shape::Name => {
             json!({ "type": "string" })
@@ -280,6 +281,16 @@ fn outline() -> Value {
     json!({ "if": { "type": "array" }, "then": reference("corners"), "else": table })
 }
 
+/// A cross section of a beam.
+fn section() -> Value {
+    let properties = json!({
+        "rectangle": described(reference("pair"), "Height in the plane, and width (m)."),
+        "circle": described(reference("number"), "Diameter (m)."),
+        "tube": described(reference("pair"), "Outer and inner diameter (m)."),
+    });
+    closed(object(properties), json!({ "minProperties": 1, "maxProperties": 1 }))
+}
+
 /// An event: a condition, or a table that contains a condition.
 fn event() -> Value {
     let properties = json!({
@@ -316,6 +327,7 @@ fn definitions() -> Value {
     });
     definitions["corners"] = json!({ "type": "array", "items": reference("pair"), "minItems": 3 });
     definitions["outline"] = outline();
+    definitions["section"] = section();
     let shapes = one_of(&shape_tables(), None);
     definitions["shapes"] = json!({ "type": "array", "items": shapes, "minItems": 1 });
     definitions["curves"] = by_name(curve(), &[]);

@@ -202,6 +202,28 @@ pub(super) fn two_names(report: &mut ProblemList, node: &Node) {
     }
 }
 
+/// A cross section of a beam.
+pub(super) fn section(report: &mut ProblemList, node: &Node) {
+    let known = ["rectangle", "circle", "tube"];
+    let form = report.example("{ rectangle = [0.01, 0.02] }", "{ \"rectangle\": [0.01, 0.02] }");
+    let Data::Table(table) = &node.data else {
+        return wrong(report, node, &format!("a section such as {form}"));
+    };
+    for (key, value) in &table.entries {
+        report.within(key, |report| match key.as_str() {
+            "rectangle" | "tube" => pair(report, value),
+            "circle" => number(report, value),
+            _ => {
+                let message = format!("unknown section '{}'", super::shown(key));
+                report.unknown_key(message, key, &known);
+            }
+        });
+    }
+    if table.entries.len() != 1 {
+        report.say(format!("must have exactly one of rectangle, circle and tube, such as {form}"));
+    }
+}
+
 /// Any number of names.
 pub(super) fn names(report: &mut ProblemList, node: &Node) {
     let Data::List(items) = &node.data else {

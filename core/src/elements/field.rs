@@ -17,6 +17,8 @@ pub enum Shape {
     Shapes,
     /// Points, a circle or a path.
     Outline,
+    /// A cross section of a beam.
+    Section,
     /// At least three points without names.
     Corners,
     /// `body.x`, `body.y` or `body.angle`.

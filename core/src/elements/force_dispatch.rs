@@ -14,7 +14,7 @@ macro_rules! forces {
             /// Reads an element by the name of its type. The outer option is None if there is no such type.
             pub fn read(kind: &str, source: &mut dyn Source) -> Option<Option<Self>> {
                 $($(#[$on])* {
-                    if kind == <$Name>::NAME {
+                    if kind == <$Name>::NAME && !kind.contains(' ') && <$Name as Force>::IN_FILES {
                         return Some(<$Name>::read(source).map(Self::$Name));
                     }
                 })+
@@ -79,6 +79,10 @@ macro_rules! forces {
             pub fn followed(&self) -> Option<&Followed<S>> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::followed(e),)+ }
             }
+            /// Whether files contain elements of its type.
+            pub fn in_files(&self) -> bool {
+                match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::IN_FILES,)+ }
+            }
             /// The named parts, in the order of [`ForceElement::action`].
             pub fn parts(&self) -> &'static [Part] {
                 match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::PARTS,)+ }
@@ -119,6 +123,10 @@ macro_rules! forces {
             /// The distances whose zeros begin and end a contact.
             pub fn clearances(&self) -> Vec<Clearance<'_>> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::clearances(e),)+ }
+            }
+            /// Whether the dimensions that give a stress are known.
+            pub fn has_stress(&self) -> bool {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::has_stress(e),)+ }
             }
             /// The symbols of the force in a drawing.
             pub fn symbols(&self) -> Vec<SceneSymbol> {
@@ -276,7 +284,11 @@ macro_rules! forces {
         #[allow(clippy::vec_init_then_push)] // some entries exist only with a feature
         fn force_tables() -> Vec<(Group, Table)> {
             let mut all = Vec::new();
-            $($(#[$on])* all.push(declared::<$Name>(Group::Forces));)+
+            $($(#[$on])* {
+                if <$Name as Force>::IN_FILES {
+                    all.push(declared::<$Name>(Group::Forces));
+                }
+            })+
             all
         }
     };

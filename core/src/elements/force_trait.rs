@@ -147,6 +147,9 @@ pub trait Force: Element {
     /// The parts. [`Force::action`] refers to them by their indices.
     const PARTS: &'static [Part];
 
+    /// Whether files contain elements of the type. Others are made by the reader of bodies.
+    const IN_FILES: bool = true;
+
     /// The position quantities that can be measured on the force.
     const MEASURED: &'static [Measured] = &[];
 
@@ -370,6 +373,13 @@ pub trait Force: Element {
     fn potential<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
         let _ = (e, at);
         S::zero()
+    }
+
+    /// Whether the dimensions that give a stress are known.
+    #[inline]
+    fn has_stress(e: &Self::Over<f64>) -> bool {
+        let _ = e;
+        false
     }
 
     /// The symbols of the element in a drawing. A varying law is NaN here.

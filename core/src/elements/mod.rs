@@ -7,6 +7,7 @@
 
 mod apart;
 mod attachment;
+pub mod beam_line;
 mod clearance;
 
 pub(crate) mod contact;
@@ -84,6 +85,7 @@ pub mod drivers {
 /// Forces that act on bodies in addition to joints and gravity.
 pub mod forces {
     mod actuator;
+    mod beam_piece;
     mod bushing;
     mod clutch;
     mod contact;
@@ -99,6 +101,7 @@ pub mod forces {
     mod torsion_spring;
 
     pub use actuator::Actuator;
+    pub use beam_piece::BeamPiece;
     pub use bushing::Bushing;
     pub use clutch::Clutch;
     pub use contact::{Contact, Resting};
@@ -203,6 +206,7 @@ forces! {
     Contact,
     Play,
     ContactFriction,
+    BeamPiece,
     #[cfg(feature = "test-elements")] Lag,
     #[cfg(feature = "test-elements")] Rubbing,
     #[cfg(feature = "test-elements")] GapSpring,
@@ -227,6 +231,54 @@ pub fn holding_angle(i: BodyId, j: BodyId, value: Tape) -> Constraint<Tape> {
     let moving = [(j, 1.0), (i, -1.0)].into_iter().filter(|(body, _)| !body.is_ground());
     let terms = moving.map(|(body, factor)| (turned(body), Tape::from(factor))).list();
     Constraint::Coupling(Coupling { terms, value, unit: Some(QuantityKind::Angle) })
+}
+
+/// The weld of two points, which assembly uses in place of elastic pieces.
+pub fn welded(i: PointOn<Tape>, j: PointOn<Tape>, angle: Tape) -> Constraint<Tape> {
+    Constraint::Weld(Weld { i, j, angle })
+}
+
+/// The numbers of an elastic piece of a beam; those of stiffness, strain and stress in its Gauss points.
+#[derive(Clone, Debug)]
+pub struct PieceNumbers {
+    /// Arc length of the beam at the first node, m.
+    pub start: Tape,
+    /// Arc length of the piece, m.
+    pub length: Tape,
+    /// EA, GA and EI.
+    pub stiffness: [[Tape; 3]; 3],
+    /// The components of Aᵀ r′ and φ′ without stress.
+    pub strains: [[Tape; 3]; 3],
+    /// Ratio of damping to stiffness, s.
+    pub damping: Option<Tape>,
+    /// Stress for a normal force of 1 N, and at the faces for a bending moment of 1 N·m.
+    pub stresses: [[Tape; 3]; 2],
+}
+
+/// An elastic piece of a beam between four nodes in the order of the arc length.
+pub fn elastic_piece(nodes: [BodyId; 4], numbers: PieceNumbers) -> ForceElement<Tape> {
+    let [i, second, third, j] = nodes;
+    let PieceNumbers { start, length, stiffness, strains, damping, stresses } = numbers;
+    let [axial, shear, bending] = stiffness;
+    let [stretch, slide, curvature] = strains;
+    let [by_force, by_moment] = stresses;
+    ForceElement::BeamPiece(BeamPiece {
+        i,
+        j,
+        second,
+        third,
+        start,
+        length,
+        axial,
+        shear,
+        bending,
+        stretch,
+        slide,
+        curvature,
+        damping,
+        by_force,
+        by_moment,
+    })
 }
 
 /// The driver that holds a position quantity at a value. Assembly uses it for the quantities in `set`.

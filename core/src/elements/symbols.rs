@@ -39,6 +39,8 @@ marks! {
     Clamp = "clamp",
     /// A block on j at its point, between rails on i along the axis of i.
     Slide = "slide",
+    /// A part of a beam between two of its nodes, drawn as a link.
+    Beam = "beam",
     /// A massless rod with a pin at each point.
     Rod = "rod",
     /// A cylinder on i with a piston rod to j: a force along the line.

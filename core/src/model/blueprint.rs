@@ -1,6 +1,7 @@
 //! A model over formulas: the definition with all names linked, before numbers are inserted.
 
-use super::definition::{Entry, Value};
+use super::beam_names::is_weld;
+use super::definition::{Definition, Entry, Value};
 use super::doubt::Doubt;
 use super::functions::Functions;
 use super::items::{Body, ForceMode};
@@ -54,10 +55,32 @@ pub struct Blueprint {
     pub functions: Option<Functions>,
     /// Angles that look like degrees.
     pub doubts: Vec<Doubt>,
+    /// The mechanism with rigid beams, in which assembly closes it. It has the same bodies.
+    pub rigid: Option<Arc<Blueprint>>,
 }
 
 impl Blueprint {
-    pub(super) fn link(
+    /// Links all joints, drivers and forces of a definition.
+    pub(super) fn link_all(
+        &mut self,
+        definition: &Definition,
+        scope: &Scope,
+        quantities: &dyn Quantities,
+        problems: &mut Vec<Problem>,
+    ) {
+        for (group, entries) in [
+            (Group::Joints, &definition.joints),
+            (Group::Drivers, &definition.drivers),
+            (Group::Forces, &definition.forces),
+        ] {
+            for entry in entries {
+                let group = if play::is_written(entry) { Group::Joints } else { group };
+                self.link(group, entry, scope, quantities, problems);
+            }
+        }
+    }
+
+    fn link(
         &mut self,
         group: Group,
         entry: &Entry,
@@ -171,6 +194,23 @@ impl Blueprint {
             companions: Arc::default(),
             ..self.clone()
         }
+    }
+
+    /// The mechanism in which beams are rigid, with the drivers, phases and further constraints of this one. None
+    /// without beams.
+    pub fn rigid(&self) -> Option<Self> {
+        let rigid = self.rigid.as_ref()?;
+        let own = |name: &str| self.constraints.iter().any(|(known, ..)| known == name);
+        let kept = rigid.constraints.iter().filter(|(name, ..)| own(name) || is_weld(name));
+        let known = |name: &str| rigid.constraints.iter().any(|(known, ..)| known == name);
+        let further = self.constraints.iter().filter(|(name, ..)| !known(name));
+        let constraints = kept.chain(further).cloned().list();
+        Some(Self {
+            constraints: constraints.into(),
+            phases: self.phases.clone(),
+            formulas: self.formulas.clone(),
+            ..Self::clone(rigid)
+        })
     }
 
     /// A body by name.

@@ -3,34 +3,41 @@
 //! A bar is shorthand for a general body whose numbers are formulas of the numbers of the bar, such as J = m L²/12.
 //! No other file needs to handle bars.
 
+use super::beam_names::is_beam;
+use super::beams;
 use super::body_fields::{INSTEAD_OF_SHAPES, POINT_MASS};
+use super::body_reader::{term, Reader};
 use super::definition::{Definition, Entry, Value};
 use super::items::Body;
 use super::problem::Problem;
-use super::scope::{Reach, Scope};
-use super::unit_check::ANY_UNIT;
-use crate::expression::{Expression, Tape};
+use super::scope::Scope;
+use crate::elements::BodyId;
+use crate::expression::Tape;
 use crate::math::{Listed, Local};
 
-/// Reads all bodies; index 0 is ground. A faulty body is kept with placeholder numbers, so that references to it
-/// cause no further reports.
+/// Reads all bodies, with index 0 for ground, and the beams among them. A faulty body is kept with placeholder
+/// numbers, so that references to it cause no further reports. `values` are those of the parameters.
 pub fn read(
     definition: &Definition,
     scope: &Scope,
+    values: &[f64],
     problems: &mut Vec<Problem>,
-) -> Vec<Body<Tape>> {
+) -> (Vec<Body<Tape>>, Vec<beams::Linked>) {
     let ground = Entry { name: "ground".to_string(), fields: Vec::new() };
     let written = definition.bodies.iter().find(|b| b.name == "ground").unwrap_or(&ground);
-    let moving = definition.bodies.iter().filter(|b| b.name != "ground");
-    std::iter::once(Reader { entry: written, scope, problems }.ground())
-        .chain(moving.map(|entry| Reader { entry, scope, problems }.moving()))
-        .list()
-}
-
-struct Reader<'a> {
-    entry: &'a Entry,
-    scope: &'a Scope,
-    problems: &'a mut Vec<Problem>,
+    let mut bodies = vec![Reader { entry: written, scope, values, problems }.ground()];
+    let mut linked = Vec::new();
+    for entry in definition.bodies.iter().filter(|b| b.name != "ground") {
+        let mut reader = Reader { entry, scope, values, problems };
+        if is_beam(entry) {
+            let mut beam = beams::read(&mut reader, BodyId(bodies.len()));
+            bodies.append(&mut beam.bodies);
+            linked.push(beam);
+        } else {
+            bodies.push(reader.moving());
+        }
+    }
+    (bodies, linked)
 }
 
 /// A named point with two coordinates, as text.
@@ -53,27 +60,9 @@ impl Reader<'_> {
             Some(Value::Text(kind)) if kind == POINT_MASS => self.point_mass(),
             None => self.general(),
             _ => {
-                self.report("type", "must be 'body', 'bar' or 'point_mass'");
+                self.report("type", "must be 'body', 'bar', 'beam' or 'point_mass'");
                 self.blank("body")
             }
-        }
-    }
-
-    fn blank(&mut self, kind: &'static str) -> Body<Tape> {
-        let zero = || Tape::from(0.0);
-        let moving = Tape::from(if kind == "ground" { 0.0 } else { 1.0 });
-        Body {
-            name: self.entry.name.clone(),
-            kind,
-            mass: moving.clone(),
-            inertia: moving,
-            center: Local { x: zero(), y: zero() },
-            points: Vec::new(),
-            curves: super::curves::read(self.entry, self.scope, self.problems),
-            shapes: Vec::new(),
-            outline: super::read_outline::read(self.entry, self.scope, self.problems),
-            drawn: None,
-            turns: kind != POINT_MASS,
         }
     }
 
@@ -249,40 +238,6 @@ impl Reader<'_> {
         }
         points
     }
-
-    fn number(&mut self, key: &str, unit: &str) -> Option<Tape> {
-        match self.entry.get(key) {
-            Some(value) => {
-                let path = self.path(key);
-                self.scope.formula(value, &path, unit, Reach::Parameters, self.problems)
-            }
-            None => {
-                self.missing(&format!("'{key}' is missing"));
-                None
-            }
-        }
-    }
-
-    /// A formula that is composed here. It can only fail by becoming too long.
-    fn compose(&mut self, text: &str) -> Tape {
-        let path = self.path("type");
-        let value = Value::Text(text.to_string());
-        let tape =
-            self.scope.formula(&value, &path[..2], ANY_UNIT, Reach::Parameters, self.problems);
-        tape.unwrap_or_else(|| Tape::from(0.0))
-    }
-
-    fn path(&self, key: &str) -> [String; 3] {
-        ["bodies".to_string(), self.entry.name.clone(), key.to_string()]
-    }
-
-    fn report(&mut self, key: &str, message: &str) {
-        self.problems.push(Problem::at(&self.path(key), message));
-    }
-
-    fn missing(&mut self, message: &str) {
-        self.problems.push(Problem::at(&["bodies", &self.entry.name], message));
-    }
 }
 
 /// Placeholders for the ends of a bar, so that references to its points cause no further reports.
@@ -294,21 +249,6 @@ fn text(value: &Value) -> Option<String> {
     match value {
         Value::Text(text) => Some(text.clone()),
         _ => None,
-    }
-}
-
-/// A value as a term of a longer formula. A quantity with a unit is not allowed in formulas, so its number is used.
-fn term(value: &Value) -> String {
-    match value {
-        Value::Number(x) => format!("({x:?})"),
-        Value::Text(text) => match Expression::parse(text) {
-            Ok(e) if e.dimension().is_some() => match e.compile(&[""; 0]).map(|t| t.constant()) {
-                Ok(Some(x)) => format!("({x:?})"),
-                _ => format!("({text})"),
-            },
-            _ => format!("({text})"),
-        },
-        _ => "0".to_string(),
     }
 }
 

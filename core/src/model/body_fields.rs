@@ -1,5 +1,6 @@
 //! The fields of bodies as data, for the reader of files, the schema, Python and the model.
 
+use super::beam_fields::beam;
 use crate::elements::{Default, Field, Shape, Table};
 
 /// The `type` of a body without an angle.
@@ -8,10 +9,10 @@ pub(super) const POINT_MASS: &str = "point_mass";
 /// The fields that shapes determine.
 pub(crate) const INSTEAD_OF_SHAPES: [&str; 3] = ["mass", "inertia", "center"];
 
-/// The types of bodies: `body` (the default), `bar`, `point_mass`, and `ground`. `ground` is not written as a type;
+/// The types of bodies: `body` (the default), `bar`, `point_mass`, `beam`, and `ground`. `ground` is not written as a type;
 /// it is the name of a body.
 pub fn body_tables() -> Vec<Table> {
-    vec![body(), bar(), point_mass(), ground()]
+    vec![body(), bar(), point_mass(), beam(), ground()]
 }
 
 fn points() -> Field {

@@ -7,8 +7,7 @@ use super::parameters::{self, Evaluated};
 use super::problem::Problem;
 use super::quantity::Elements;
 use super::scope::Scope;
-use super::{bodies, checks, play, tables};
-use crate::elements::Group;
+use super::{beams, bodies, checks, play, tables};
 use crate::expression::Tape;
 use std::sync::Arc;
 
@@ -27,7 +26,7 @@ pub fn build(
     let mut scope = Scope::new(definition, inferred);
     scope.tables = tables;
     let gravity = gravity(definition, &scope, &mut problems);
-    let bodies = bodies::read(definition, &scope, &mut problems);
+    let (bodies, linked) = bodies::read(definition, &scope, &values, &mut problems);
     let quantities = Elements::new(definition, &scope, &bodies);
     let mut blueprint = Blueprint {
         title: definition.title.clone().unwrap_or_default(),
@@ -46,17 +45,20 @@ pub fn build(
         modes: Vec::new(),
         implied: 0,
         phases: Vec::new(),
+        rigid: None,
     };
-    for (group, entries) in [
-        (Group::Joints, &definition.joints),
-        (Group::Drivers, &definition.drivers),
-        (Group::Forces, &definition.forces),
-    ] {
-        for entry in entries {
-            let group = if play::is_written(entry) { Group::Joints } else { group };
-            blueprint.link(group, entry, &scope, &quantities, &mut problems);
-        }
+    let mut rigid = (!linked.is_empty()).then(|| blueprint.clone());
+    blueprint.link_all(definition, &scope, &quantities, &mut problems);
+    if let Some(rigid) = rigid.as_mut().filter(|_| problems.is_empty()) {
+        let bodies = beams::rigid_bodies(&bodies, &linked);
+        let quantities = Elements::new(definition, &scope, &bodies);
+        rigid.bodies = bodies.clone().into();
+        rigid.allow_redundancy = true;
+        rigid.link_all(definition, &scope, &quantities, &mut problems);
+        beams::weld(rigid, &linked);
     }
+    blueprint.rigid = rigid.map(Arc::new);
+    beams::connect(&mut blueprint, linked);
     blueprint.add_companions();
     for (k, unit) in scope.units.take() {
         let functions = blueprint.functions.iter_mut();

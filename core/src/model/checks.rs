@@ -1,11 +1,12 @@
 //! Checks of the numbers of a model.
 
+use super::beam_names::{beam_of, BEAM, NODE};
 use super::items::Body;
 use super::model::Model;
 use super::outline::Outline;
 use super::problem::Problem;
 use super::shape_checks;
-use crate::elements::Curve;
+use crate::elements::{Curve, ForceElement};
 use crate::expression::{FormulaValues as Values, Tape};
 use crate::math::Listed;
 
@@ -30,7 +31,7 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
         }
         if !body.shapes.is_empty() {
             shape_checks::shapes(body, problems);
-        } else if body.name != "ground" {
+        } else if body.name != "ground" && body.kind != NODE {
             possible(body, problems);
         }
     }
@@ -60,12 +61,27 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
             None => item.element.clone(),
             Some(law) => law.map(&mut |tape| constant(tape, parameters)),
         };
+        if !element.in_files() {
+            piece(beam_of(&item.name), &element, problems);
+            continue;
+        }
         if item.law.is_none() {
             element.map(&mut |x| check(&[section, &item.name], *x, problems));
         }
         if let Some((field, message)) = element.fault() {
             problems.push(Problem::at(&[section, &item.name, field], message));
         }
+    }
+}
+
+/// Reports a fault of a piece of a beam, once for each beam.
+fn piece(beam: &str, element: &ForceElement, problems: &mut Vec<Problem>) {
+    let path = ["bodies", beam];
+    if problems.iter().any(|problem| problem.path == path) {
+        return;
+    }
+    if let Some((_, message)) = element.fault() {
+        problems.push(Problem::at(&path, message));
     }
 }
 
@@ -85,6 +101,9 @@ fn check(path: &[&str], x: f64, problems: &mut Vec<Problem>) {
 
 fn possible(body: &Body, problems: &mut Vec<Problem>) {
     let path = |key: &str| ["bodies".to_string(), body.name.clone(), key.to_string()];
+    if body.kind == BEAM {
+        return beam(body, problems);
+    }
     if !(body.mass.is_finite() && body.mass >= 0.0) {
         let must = if body.mass < 0.0 { "not be negative" } else { "be finite" };
         let message = format!("{} kg; must {must}", body.mass);
@@ -103,6 +122,17 @@ fn possible(body: &Body, problems: &mut Vec<Problem>) {
     }
     if !(body.center.x.is_finite() && body.center.y.is_finite()) {
         problems.push(Problem::at(&path("center"), "must be finite"));
+    }
+}
+
+/// The mass of the first node stands for that of the beam.
+fn beam(body: &Body, problems: &mut Vec<Problem>) {
+    for (what, x) in [("mass", body.mass), ("moment of inertia", body.inertia)] {
+        if !(x.is_finite() && x >= 0.0) {
+            let must = if x < 0.0 { "not be negative" } else { "be finite" };
+            let message = format!("the {what} per length of the beam must {must}");
+            problems.push(Problem::at(&["bodies", &body.name], message));
+        }
     }
 }
 

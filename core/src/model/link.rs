@@ -1,5 +1,6 @@
 //! Linking of the fields of an element: names become indices, and text becomes formulas.
 
+use super::beam_names::is_inner;
 use super::definition::{Entry, Value};
 use super::items::Body;
 use super::law_faults::WITHOUT_FORMULA;
@@ -105,8 +106,8 @@ impl<'a> Linker<'a> {
             return self.report(field, message, Some(format!("write '{body}'")));
         }
         let hint = self.suggests().then(|| {
-            let names: Vec<&str> = self.bodies.iter().map(|b| b.name.as_str()).list();
-            did_you_mean(name, &names, "bodies")
+            let names = self.bodies.iter().map(|b| b.name.as_str());
+            did_you_mean(name, &names.filter(|name| !is_inner(name)).list(), "bodies")
         });
         self.report(field, format!("unknown body '{name}'"), hint.flatten())
     }

@@ -1,8 +1,12 @@
 //! Models: as written ([`Definition`]), linked ([`Blueprint`]) and as numbers ([`Model`]).
 
+mod beam_fields;
+mod beam_names;
+mod beams;
 mod blueprint;
 mod bodies;
 mod body_fields;
+mod body_reader;
 mod body_shape;
 mod build;
 mod checks;
@@ -41,6 +45,7 @@ mod unit_check;
 mod variable;
 mod variant;
 
+pub use beam_names::{beam_of, is_inner, BEAM, NODE};
 pub use blueprint::Blueprint;
 pub use body_fields::body_tables;
 pub(crate) use body_fields::INSTEAD_OF_SHAPES;

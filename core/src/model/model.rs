@@ -1,5 +1,6 @@
 //! A model as numbers: immutable, over any scalar.
 
+use super::beam_names::BEAM;
 use super::blueprint::Blueprint;
 use super::functions::Functions;
 use super::items::{Body, ConstraintItem, ForceItem};
@@ -204,9 +205,19 @@ fn forces<S: Real>(
 }
 
 impl<S> Model<S> {
-    /// A body by name.
+    /// A body by name. The first end of a beam, such as `rod.A`, is a name of its first node.
     pub fn body(&self, name: &str) -> Option<BodyId> {
-        self.bodies.iter().position(|b| b.name == name).map(BodyId)
+        let known = self.bodies.iter().position(|b| b.name == name);
+        let first = || {
+            let (beam, place) = name.split_once('.')?;
+            let is_first = |b: &Body<S>| {
+                b.kind == BEAM
+                    && b.name == beam
+                    && b.points.first().is_some_and(|(p, _)| p == place)
+            };
+            self.bodies.iter().position(is_first)
+        };
+        known.or_else(first).map(BodyId)
     }
     /// A joint or driver by name.
     pub fn constraint(&self, name: &str) -> Option<usize> {

@@ -20,6 +20,14 @@ pub(super) struct NameIndex {
 }
 
 impl NameIndex {
+    /// Adds second names of bodies: (name, second name).
+    pub fn add_ends(&mut self, ends: impl Iterator<Item = (String, String)>) {
+        for (body, end) in ends {
+            let place = self.bodies.get(&body).copied();
+            place.into_iter().for_each(|k| _ = self.bodies.entry(end.clone()).or_insert(k));
+        }
+    }
+
     /// The index of an internal coordinate, such as `cam.u`, among those of all joints.
     pub fn place_on_curve(&self, name: &str) -> Option<usize> {
         match self.internals.get(name)? {

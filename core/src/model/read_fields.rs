@@ -1,5 +1,6 @@
 //! The values of the fields of an element, by their kinds.
 
+use super::beam_names::NODE;
 use super::definition::Value;
 use super::scope::Reach;
 use super::unit_check::ANY_UNIT;
@@ -8,7 +9,7 @@ use crate::elements::{
     PointOn, QuantityKind, Source,
 };
 use crate::expression::Tape;
-use crate::math::Listed;
+use crate::math::{Listed, Local};
 use std::sync::Arc;
 
 use super::link::{did_you_mean, Linker};
@@ -33,6 +34,11 @@ impl Source for Linker<'_> {
         let owner = &self.bodies[body.0];
         if let Some(s) = owner.point(name) {
             return Some(PointOn { body, s: s.clone() });
+        }
+        // a place of a beam is a node
+        if let Some(k) = self.scope.body(text).filter(|k| self.bodies[*k].kind == NODE) {
+            let s = Local { x: Tape::from(0.0), y: Tape::from(0.0) };
+            return Some(PointOn { body: BodyId(k), s });
         }
         if owner.lacks_points() {
             return None; // its own fault is reported

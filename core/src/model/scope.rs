@@ -1,5 +1,6 @@
 //! Formulas of a model: the names that they may use, and their units.
 
+use super::beam_names::{body_names, first_end, is_inner};
 use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
 use super::doubt::Doubt;
@@ -27,8 +28,7 @@ pub struct Scope {
     pub tables: Vec<Arc<Table>>,
     /// Bodies, each with a flag whether it has an angle; index 0 is ground.
     pub bodies: Vec<(String, bool)>,
-    /// First-order states, such as `motor.current`, in the order of z: the states of each force, then the values of
-    /// its sampled laws.
+    /// First-order states, such as `motor.current`, in the order of z: those of each force, then its sampled laws.
     pub states: Vec<String>,
     /// Laws that the host computes.
     pub functions: Option<Functions>,
@@ -154,7 +154,8 @@ impl Names for Visible<'_> {
         }
         known.push("t".to_string());
         for (k, (body, _)) in self.scope.bodies.iter().enumerate().skip(1) {
-            let coordinates = Coordinate::ALL.into_iter().filter(|c| self.sees(k, *c));
+            let sees = |c: &Coordinate| !is_inner(body) && self.sees(k, *c);
+            let coordinates = Coordinate::ALL.into_iter().filter(sees);
             coordinates.map(|c| format!("{body}.{}", c.name())).append_to(&mut known);
         }
         if self.reach == Reach::State {
@@ -198,11 +199,12 @@ impl Scope {
             let held = sampled.filter(|(_, law, _)| law.element == entry.name);
             own.chain(held.map(|(_, law, _)| law.held()))
         });
-        let bodies = std::iter::once(("ground".to_string(), true))
-            .chain(moving.map(|b| (b.name.clone(), turns(b))))
-            .list();
-        let parameters = definition.parameters.iter().map(|(name, _)| name.clone()).list();
-        let mut scope = Self::of(parameters, inferred, bodies, states.list());
+        let names = |b: &Entry| body_names(b).into_iter().map(|name| (name, turns(b))).list();
+        let ground = std::iter::once(("ground".to_string(), true));
+        let bodies = ground.chain(moving.clone().flat_map(names)).list();
+        let parameters = definition.parameters.iter().map(|(name, _)| name.clone());
+        let mut scope = Self::of(parameters.list(), inferred, bodies, states.list());
+        scope.places.add_ends(moving.filter_map(|b| Some((b.name.clone(), first_end(b)?))));
         scope.functions.clone_from(&definition.functions);
         let constraints = definition.joints.iter().chain(&definition.drivers);
         scope.places.constraints = places(constraints.map(|entry| &entry.name));
@@ -288,10 +290,9 @@ impl Scope {
                 return None;
             }
         };
-        let reported = problems.len() < MOST_REPORTED;
         let parsed = Expression::parse(text).and_then(|e| {
-            let ambiguous = RefCell::default();
-            let names = Visible { scope: self, reach, law, suggests: reported, ambiguous };
+            let (suggests, ambiguous) = (problems.len() < MOST_REPORTED, RefCell::default());
+            let names = Visible { scope: self, reach, law, suggests, ambiguous };
             let tape = e.compile(&names).map_err(|fault| ExpressionError {
                 hint: self.out_of_reach(&e, reach, law).or(fault.hint),
                 ..fault

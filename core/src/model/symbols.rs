@@ -1,5 +1,6 @@
 //! The symbols of all elements of a model.
 
+use super::beam_names::beam_of;
 use super::model::Model;
 use crate::elements::SceneSymbol;
 use crate::expression::{Symbol, Tape, Values};
@@ -34,7 +35,9 @@ impl Model {
         }
         let listed = blueprint.forces.len() - blueprint.companions.len();
         for (name, _, formula) in &blueprint.forces[..listed] {
-            found.push((name.as_str(), formula.map(value).symbols()));
+            // the pieces of a beam are drawn as one
+            let name = if formula.in_files() { name.as_str() } else { beam_of(name) };
+            found.push((name, formula.map(value).symbols()));
         }
         found
     }

@@ -35,6 +35,11 @@ impl Model {
         }
     }
 
+    /// The mechanism in which beams are rigid. It has the same coordinates. None without beams.
+    pub fn rigid(&self) -> Option<Self> {
+        Some(Self::new(&Arc::new(self.blueprint.rigid()?), &self.parameters))
+    }
+
     /// The model without the drivers of these names. Other names are ignored.
     pub fn without(&self, drivers: &[String]) -> Self {
         let mut blueprint = Blueprint::clone(&self.blueprint);

@@ -6,6 +6,7 @@
 mod mechanisms;
 
 mod balance;
+mod beams;
 mod constraints;
 mod energy;
 mod equilibrium;

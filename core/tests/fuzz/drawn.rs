@@ -200,6 +200,7 @@ impl Drawn<'_> {
             Shape::Curves => self.curves(),
             Shape::Shapes => self.shapes(),
             Shape::Outline => self.outline(),
+            Shape::Section => Value::Table(vec![("circle".to_string(), self.number())]),
             Shape::Corners | Shape::Ranges => {
                 let points = (0..4).map(|_| Value::List(vec![self.number(), self.number()]));
                 Value::List(points.collect())

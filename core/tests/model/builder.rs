@@ -163,10 +163,17 @@ fn every_field_of_bodies() {
     let body = m.body("body").mass(1).inertia(1).center(0, 0).point("C", 0, 1);
     let body = body.curve("rim", circle()).outline(drawn());
     body.through("C", 0, 0).through("D", 1, 1);
+    let all = m.beam("beam").ends("A", "B").length(1).young(1e9).density(1e3).poisson(0.3);
+    let all = all.section(Value::Table(vec![("circle".to_string(), 0.01.into())]));
+    let all = all.stiffness(1, 1, 1).mass_per_length(1).inertia_per_length(1).damping(0);
+    let all = all.elements(2).shear(true).inextensible(false).point("P", "50 %");
+    all.through(Value::List(vec![])).arc(Value::List(vec![]));
     m.point_mass("point_mass").mass(1).at(0.5, 2).outline(drawn());
     // a body has shapes, or mass, inertia and center
     m.body("of shapes").shape("disc", [("radius", 1.0.into()), ("mass", 1.0.into())]);
-    m.build().unwrap();
+    // some fields of a beam exclude each other
+    let beam = |m: &ModelBuilder| m.definition().bodies.iter().find(|b| b.name == "beam").is_some();
+    assert!(m.build().is_err() && beam(&m));
     for table in body_tables() {
         let entry = m.definition().bodies.iter().find(|b| b.name == table.name).unwrap();
         let mut written: Vec<&str> = entry.fields.iter().map(|(key, _)| key.as_str()).collect();

@@ -112,6 +112,7 @@ impl Dice {
                 Value::Text(self.text())
             }
             Shape::Joint | Shape::Name => Value::Text(self.text()),
+            Shape::Section => Value::Table(vec![("rectangle".to_string(), self.pair())]),
             Shape::Number | Shape::Law => self.formula(),
             Shape::Pair | Shape::LawPair => self.pair(),
             Shape::Ranges => Value::List(vec![self.pair(), self.pair()]),

@@ -3,7 +3,7 @@
 use super::items::{colour_of, layer, metres, Frame, Item, Row};
 use super::shapes::circle;
 use crate::plane::{ahead, minus, At, Extent};
-use crate::scene::{Body, PartForm};
+use crate::scene::{Body, PartForm, Symbol};
 use std::f64::consts::TAU;
 
 /// Radius of a spot, and widths of a link, of its edges, and of curves, in points of print.
@@ -20,6 +20,7 @@ pub fn draw(body: &Body) -> Vec<Item> {
     match body.number {
         _ if !body.drawn.is_empty() => drawn(body),
         0 => Vec::new(),
+        _ if body.outline.is_empty() => Vec::new(),
         _ if is_plate(body) => Vec::new(),
         _ => link(body),
     }
@@ -132,6 +133,17 @@ fn link(body: &Body) -> Vec<Item> {
         true => vec![edge.closed(), fill(&rows), inside.closed()],
         false => vec![edge, inside],
     }
+}
+
+/// A part of a beam. Its edge lies below the bodies, so that the edge of the next part does not cover it.
+pub fn beam(symbol: &Symbol, number: usize) -> Vec<Item> {
+    let frame = Frame::between(symbol.bodies, [symbol.at_i(), symbol.at_j()]);
+    let line = |width: f64| {
+        let rows = vec![[0.0; 4], [1.0, 0.0, 0.0, 0.0]];
+        Item::line(&symbol.element, &frame, rows, &colour_of(number), width)
+    };
+    let edge = line(LINK + 2.0 * EDGE).on(layer::GROUND);
+    vec![edge, line(LINK).on(layer::BODY).tinted(TINT)]
 }
 
 /// All edges, then all areas on top of them, so that only the outer edge of the union remains visible.

@@ -21,7 +21,7 @@ pub fn draw(made: &mut List<'_>) {
     for own in by_element(&scene.symbols) {
         for symbol in own {
             let is_drawn = match symbol.mark {
-                Mark::Slot => false, // drawn with its body
+                Mark::Slot | Mark::Beam => false, // drawn with the bodies
                 Mark::Pin => pinned.is_new(made.last_end(symbol)),
                 _ => true,
             };
@@ -55,6 +55,11 @@ fn add_links(made: &mut List<'_>) {
         made.items.extend(symbols::draw(slot, around, 0.0));
     }
     made.items.extend(others.into_iter().flat_map(bodies::draw));
+    for part in scene.symbols.iter().filter(|symbol| symbol.mark == Mark::Beam) {
+        let own = scene.bodies.iter().find(|body| body.name == part.element);
+        let number = own.map_or(part.bodies[0], |body| body.number);
+        made.items.extend(bodies::beam(part, number));
+    }
 }
 
 /// The symbols, grouped by element. Elements with the largest wheels come first.

@@ -92,7 +92,7 @@ pub fn add_elements(made: &mut List<'_>) {
     let scene = made.scene;
     let mut seen: HashSet<&str> = scene.joints.iter().map(|joint| joint.name.as_str()).collect();
     seen.extend(contacts(made).map(|symbol| symbol.element.as_str()));
-    for symbol in &scene.symbols {
+    for symbol in scene.symbols.iter().filter(|symbol| symbol.mark != Mark::Beam) {
         if seen.len() > MOST || !seen.insert(&symbol.element) {
             continue;
         }

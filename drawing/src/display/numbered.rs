@@ -8,6 +8,8 @@ use super::text::{one_line, Role};
 use crate::plane::{ahead, minus, size, At};
 use crate::scene::mark::is_around;
 use crate::scene::Body;
+use kempe::elements::Mark;
+use kempe::model::{beam_of, NODE};
 
 /// Radius of the circle around a number, and of symbols around a pin, points of print.
 pub const RADIUS: f64 = 7.0;
@@ -22,22 +24,28 @@ type Pin = (Vec<At>, f64);
 pub fn add(made: &mut List<'_>, numbers: Numbers) {
     let scene = made.scene;
     let bodies = scene.bodies.get(1..).unwrap_or_default();
-    if bodies.len() > MOST {
+    if bodies.iter().filter(|body| body.kind != NODE).count() > MOST {
         return;
     }
     let mut pins: Vec<Pin> = Vec::new();
-    for symbol in &scene.symbols {
+    for symbol in scene.symbols.iter().filter(|symbol| symbol.mark != Mark::Beam) {
         let wide = if is_around(symbol.mark) { RINGED } else { RADIUS };
         pins.extend(symbol.ends().map(|(body, at)| (printed_path(made, body, at), wide)));
     }
-    for body in bodies {
+    for body in bodies.iter().filter(|body| body.kind != NODE) {
+        let carrier = carrier(bodies, body);
         let number = (body.number as i64 - 1 + numbers.first).to_string();
-        match free_place(made, body, &pins) {
+        match free_place(made, carrier, &pins) {
             Some(at) => {
-                let frame = Frame::upright(body.number, at);
-                made.items.extend(circled(&body.name, &frame, [0.0; 2]));
+                let frame = Frame::upright(carrier.number, at);
+                let rim = circled(&body.name, &frame, [0.0; 2]);
+                let colour = colour_of(body.number);
+                made.items.extend(rim.map(|item| match item.colour.as_str() {
+                    "paper" => item,
+                    _ => Item { colour: colour.clone(), ..item },
+                }));
                 made.items.push(Item::text(&body.name, &frame, [0.0; 4], &number, Role::Number));
-                pins.push((printed_path(made, body.number, at), RADIUS));
+                pins.push((printed_path(made, carrier.number, at), RADIUS));
                 if numbers.names {
                     made.name(Role::Body, &body.name, frame);
                 }
@@ -47,11 +55,18 @@ pub fn add(made: &mut List<'_>, numbers: Numbers) {
                     true => (Role::Body, format!("{number} {}", one_line(&body.name))),
                     false => (Role::Number, number),
                 };
-                let frame = Frame::upright(body.number, body.center);
+                let frame = Frame::upright(carrier.number, carrier.center);
                 made.names.push(Name { of: body.name.clone(), words, role, frame });
             }
         }
     }
+}
+
+/// The body that carries the number of a body: a node in the middle of a beam.
+fn carrier<'a>(bodies: &'a [Body], body: &'a Body) -> &'a Body {
+    let is_inner = |other: &&Body| other.kind == NODE && beam_of(&other.name) == body.name;
+    let nodes: Vec<&Body> = bodies.iter().filter(is_inner).collect();
+    nodes.get(nodes.len() / 2).copied().unwrap_or(body)
 }
 
 /// The circle around the number of a body.

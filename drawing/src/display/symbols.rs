@@ -3,7 +3,7 @@
 use super::around::{self, Around};
 use super::items::Item;
 use super::pins::pin_at;
-use super::{along, at, wheels};
+use super::{along, at, bodies, wheels};
 use crate::scene::Symbol;
 use kempe::elements::Mark;
 
@@ -34,6 +34,7 @@ pub fn draw(symbol: &Symbol, around: Around<'_>, aside: f64) -> Vec<Item> {
         Mark::Roller => wheels::roller(symbol),
         Mark::Round => wheels::round_end(symbol),
         Mark::Rod => along::rod(symbol),
+        Mark::Beam => bodies::beam(symbol, symbol.bodies[0]),
         Mark::Spring => along::spring(symbol, aside),
         Mark::Dashpot => along::dashpot(symbol, aside),
         Mark::Cylinder => along::cylinder(symbol, "force"),

@@ -6,7 +6,7 @@ use crate::numbers::rounded;
 use crate::plane::At;
 use kempe::elements::{BodyId, Group};
 use kempe::math::Local;
-use kempe::model::{DrawnForm, Model};
+use kempe::model::{DrawnForm, Model, BEAM, NODE};
 
 /// A joint with its bodies and its point on each, not rounded.
 struct Ends {
@@ -81,7 +81,11 @@ fn body(model: &Model, joints: &[Ends], number: usize) -> Body {
         kind: if of.kind.is_empty() { "ground" } else { of.kind }.to_string(),
         points: named.map(|(name, s)| Point { name: name.clone(), at: nine(pair(s)) }).collect(),
         center: nine(pair(&of.center)),
-        outline: if number == 0 { Vec::new() } else { outline(model, joints, number) },
+        outline: match of.kind {
+            BEAM | NODE => Vec::new(), // its symbols show it
+            _ if number == 0 => Vec::new(),
+            _ => outline(model, joints, number),
+        },
         drawn: drawn
             .iter()
             .map(|part| Part { form: form(part.form), points: points(&part.points) })

@@ -50,6 +50,7 @@ pub fn is_drive(mark: Mark) -> bool {
 pub fn unmarked(mark: Mark) -> usize {
     match mark {
         Mark::ShiftStop | Mark::Round => 2,
+        Mark::Beam => 2,
         Mark::RubbingSlide | Mark::Face | Mark::ForceArrow | Mark::DriveShift => 1,
         _ => usize::from(is_wheel(mark) || is_guide(mark)),
     }

@@ -27,13 +27,13 @@ def show_mechanism(console: Console, state: State) -> None:
     heading(console, "Bodies")
     bodies = [
         (str(b.number), b.name, b.type, figure(b.mass), figure(b.inertia))
-        for b in model.bodies.values()
+        for b in model.compile().shown_bodies.values()
     ]
     table(console, ("", "name", "type", "mass / kg", "inertia / kg·m²"), bodies, left=3)
     for title, elements in (
         ("Joints", model.joints),
         ("Drivers", model.drivers),
-        ("Forces", model.forces),
+        ("Forces", model.compile().shown_forces),
     ):
         if elements:
             heading(console, title)

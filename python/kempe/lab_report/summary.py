@@ -19,9 +19,9 @@ def at_a_glance(subject: Subject) -> Section:
     model, start = subject.model, subject.start
     free = start.matrices().degrees_of_freedom
     counts = (
-        f"{_counted(len(model.bodies), 'moving body', 'moving bodies')}, "
+        f"{_counted(len(model.shown_bodies), 'moving body', 'moving bodies')}, "
         f"{_counted(len(model.joints), 'joint')}, {_counted(len(model.drivers), 'driver')} and "
-        f"{_counted(len(model.forces), 'force element')}; {model.n_q} coordinates and "
+        f"{_counted(len(model.shown_forces), 'force element')}; {model.n_q} coordinates and "
         f"{_counted(model.n_rows, 'constraint equation')}, "
         f"{_counted(free, 'degree')} of freedom."
     )

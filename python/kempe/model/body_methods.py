@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from kempe.model.beams import Beam
 from kempe.model.bodies import Bar, Body, PointMass
 from kempe.model.elements import E
 from kempe.model.values import Curves, Number, Outline, Pair, Points, Shapes
@@ -82,6 +86,60 @@ class BodyMethods:
         """
         given = (mass, inertia, center, points, through, curves, shapes, outline)
         return self._add(Body(name, *given))
+
+    def beam(
+        self,
+        name: str,
+        *,
+        ends: tuple[str, str] | None = None,
+        length: Number | None = None,
+        through: Sequence[Pair] | None = None,
+        arc: Sequence[Number] | None = None,
+        section: Mapping[str, Any] | None = None,
+        young: Number | None = None,
+        poisson: Number | None = None,
+        density: Number | None = None,
+        EA: Number | None = None,
+        EI: Number | None = None,
+        GA: Number | None = None,
+        mass_per_length: Number | None = None,
+        inertia_per_length: Number | None = None,
+        damping: Number | None = None,
+        elements: int | None = None,
+        points: Mapping[str, Number] | None = None,
+        shear: bool = True,
+        inextensible: bool = False,
+    ) -> Beam:
+        """Add a beam: a link that bends, stretches and shears, at large rotations.
+
+        Its ends and named points are points for joints, forces and measures, and have an angle,
+        such as ``rod.B.angle``. Its frame is that of its first end, with x along the tangent.
+
+        Args:
+            name: name of the beam.
+            ends: names of the first and the last end; A and B by default.
+            length: of a straight beam, m.
+            through: global positions of points of the centre line when assembly starts, m.
+            arc: centre x and y, radius, first and last angle of a circular centre line, m and rad.
+            section: such as ``kp.Section.rectangle(height=0.01, width=0.02)``.
+            young: Young's modulus of the section, Pa.
+            poisson: Poisson's ratio of the section; 0.3 by default.
+            density: of the section, kg/m³.
+            EA: axial stiffness, N; EA, EI and GA take the place of section and young.
+            EI: bending stiffness, N·m².
+            GA: effective shear stiffness, N.
+            mass_per_length: kg/m, in place of density.
+            inertia_per_length: of the sections, kg·m; by default mass_per_length·EI/EA.
+            damping: efforts per rate of strain, relative to the stiffness, s; 0 by default.
+            elements: number of elements of the third degree, each with three nodes of its own.
+            points: further named points by their arc lengths, m, or shares such as ``"50 %"``.
+            shear: whether the sections may shear.
+            inextensible: whether the centre line keeps its length.
+        """
+        line = (ends, length, through, arc, section, young, poisson, density, EA, EI, GA)
+        masses = (mass_per_length, inertia_per_length, damping)
+        given = (*line, *masses, elements, points, shear, inextensible)
+        return self._add(Beam(name, *given))
 
     def point_mass(
         self, name: str, *, mass: Number, at: Pair | None = None, outline: Outline | None = None

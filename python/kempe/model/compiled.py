@@ -228,6 +228,21 @@ class CompiledModel:
         """The moving bodies, in the order of q."""
         return MappingProxyType({k: b for k, b in self.all_bodies.items() if b.number})
 
+    @property
+    def shown_bodies(self) -> Mapping[str, BodyInfo]:
+        """The moving bodies, each beam as one."""
+        return MappingProxyType({k: b for k, b in self.bodies.items() if b.is_shown})
+
+    @property
+    def named_bodies(self) -> Mapping[str, BodyInfo]:
+        """The moving bodies, and the ends and named points of beams."""
+        return MappingProxyType({k: b for k, b in self.bodies.items() if not b.is_inner})
+
+    @property
+    def shown_forces(self) -> Mapping[str, ForceInfo]:
+        """The force elements of the file."""
+        return MappingProxyType({k: f for k, f in self.forces.items() if f.is_shown})
+
     @cached_property
     def constraints(self) -> Mapping[str, ConstraintInfo]:
         """Joints and drivers, in the order of Φ."""

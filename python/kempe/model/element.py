@@ -19,6 +19,7 @@ class Element:
         section: the section of the file, such as ``joints``.
         kind: the ``type`` in the file.
         value_kinds: kind of value of each field.
+        keys: the keys in the file of fields with another name.
 
     Raises:
         ModelError: the value of a field is invalid; the message names the field.
@@ -28,6 +29,7 @@ class Element:
     section: ClassVar[str]
     kind: ClassVar[str]
     value_kinds: ClassVar[Mapping[str, str]]
+    keys: ClassVar[Mapping[str, str]] = {}
 
     def __post_init__(self) -> None:
         """Check every given field and convert it to JSON data."""
@@ -35,7 +37,8 @@ class Element:
         for field, shape in self.value_kinds.items():
             value = getattr(self, field)
             if value is not None:
-                checked = ELEMENT_CHECKS[shape](value, f"{self.section}.{self.name}.{field}")
+                path = f"{self.section}.{self.name}.{self.keys.get(field, field)}"
+                checked = ELEMENT_CHECKS[shape](value, path)
                 object.__setattr__(self, field, checked)
 
     def tree(self) -> dict[str, Any]:
@@ -44,5 +47,5 @@ class Element:
         for field in fields(self):
             value = getattr(self, field.name)
             if field.name != "name" and (field.default is MISSING or value != field.default):
-                entry[field.name] = value
+                entry[self.keys.get(field.name, field.name)] = value
         return entry

@@ -65,6 +65,16 @@ class BodyInfo:
         return int(self.columns.stop - self.columns.start)
 
     @property
+    def is_shown(self) -> bool:
+        """Whether lists and figures show it: a node inside of a beam is part of the beam."""
+        return self.type != "node"
+
+    @property
+    def is_inner(self) -> bool:
+        """Whether it is a node of a beam without a name in the file."""
+        return ".#" in self.name
+
+    @property
     def quantities(self) -> tuple[str, ...]:
         """Names of its coordinates: ``x``, ``y`` and ``angle``."""
         return COORDINATES[: self.count]
@@ -151,6 +161,7 @@ class ForceInfo:
         places: slice of its first-order states in z; empty for most forces.
         states: names and units of its first-order states, such as ``("current", "A")``.
         reaction: the joint on whose reaction it depends; None for most forces.
+        is_shown: whether lists and figures show it; an elastic piece is part of its beam.
         reads_multipliers: whether it depends on multipliers.
         results: names and units of its results beside its wrenches, such as ``("load", "N")``.
         measured: its position quantities.
@@ -166,6 +177,7 @@ class ForceInfo:
     places: slice
     states: tuple[tuple[str, str], ...]
     reaction: str | None
+    is_shown: bool
     reads_multipliers: bool
     results: tuple[tuple[str, str], ...]
     measured: tuple[Measured, ...]
@@ -252,6 +264,7 @@ def force(entry: dict[str, Any]) -> ForceInfo:
         places=slice(*entry["places"]),
         states=_units(entry["states"]),
         reaction=entry["reaction"],
+        is_shown=entry["is_shown"],
         reads_multipliers=entry["reads_multipliers"],
         results=_units(entry["results"]),
         measured=_measured(entry["measured"]),

@@ -200,6 +200,14 @@ def outline(value: object, path: str) -> Any:
     return [list(pair(point, f"{path}[{k}]")) for k, point in enumerate(found)]
 
 
+def section(value: object, path: str) -> dict[str, Any]:
+    """A cross section: a mapping with one key; the core checks it."""
+    form = "kp.Section.rectangle(height=0.01, width=0.02)"
+    if not isinstance(value, Mapping):
+        refuse(path, f"{value!r}; must be a section such as {form}")
+    return {reference(key, path): _of_curve(entry, f"{path}.{key}") for key, entry in value.items()}
+
+
 def _of_curve(value: object, path: str) -> Any:
     """A number, a text, a flag, or lists of them to any depth, arrays included."""
     if isinstance(value, bool | str):
@@ -313,6 +321,7 @@ CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "curves": curves,
     "shapes": shapes,
     "outline": outline,
+    "section": section,
     "curve": reference,
     "condition": reference,
     "name_list": listed_words,

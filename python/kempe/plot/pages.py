@@ -89,9 +89,9 @@ def _families(
     over_time = TimePages(solution, drawing_pages.unit_of_length(solution), cut, index_base)
     for quantity in COORDINATES:
         yield over_time.of_coordinate(quantity)[:most]
-    for name, file in _filed(model.bodies)[:most]:
+    for name, file in _filed(model.shown_bodies)[:most]:
         yield [over_time.of_body(name, file)]
-    turning = [name for name in model.forces if only_turns(solution, name)]
+    turning = [name for name in model.shown_forces if only_turns(solution, name)]
     yield [over_time.of_torque(*names) for names in _filed(turning)[:most]]
     yield [over_time.of_reactions(*names) for names in _filed(model.constraints)[:most]]
     yield [over_time.of_measure(*names) for names in _filed(model.measures)[:most]]

@@ -61,7 +61,7 @@ class TimePages:
 
     def of_coordinate(self, quantity: str) -> list[Page]:
         """One coordinate of all bodies, a panel for each; more pages for many bodies."""
-        found = self.solution.compiled.bodies.items()
+        found = self.solution.compiled.named_bodies.items()
         bodies = [name for name, info in found if quantity in info.quantities]
         count = math.ceil(len(bodies) / _MOST_PANELS)
         pages = []
@@ -147,7 +147,7 @@ class TimePages:
         return Page(0, "motion", "motion", self._motion)
 
     def _motion(self) -> Figure:
-        known = list(self.solution.compiled.bodies)
+        known = list(self.solution.compiled.named_bodies)
         panels = [self._together(quantity, known[:_MOST_BODIES]) for quantity in COORDINATES]
         few = f" of the first {_MOST_BODIES} of {len(known)} bodies" if known[_MOST_BODIES:] else ""
         return self._figure(

@@ -21,6 +21,7 @@ from kempe.results.phases import Phases
 from kempe.results.redundant import redundant
 from kempe.results.remarks import LEFT_OUT, MIDDLE, MINIMUM_NORM, together
 from kempe.results.variable import TIME, Variable
+from kempe.results.views.beam import BeamView
 from kempe.results.views.body import BodyView
 from kempe.results.views.constraint import ConstraintView
 from kempe.results.views.force import ForceView
@@ -230,7 +231,13 @@ class Motion:
 
     def force_results(self, name: str) -> Floats:
         """Results of a force element beside its wrenches, (…, n); see ``ForceInfo.results``."""
-        return self._answer(lambda states: states.force_results(name), self.lam)
+        reads = self.compiled.forces[name].reads_multipliers
+        lam = (
+            self.lam
+            if reads
+            else np.zeros((len(np.atleast_1d(self.t)), self.compiled.n_multipliers))
+        )
+        return self._answer(lambda states: states.force_results(name), lam)
 
     def force_energy(self, name: str) -> Floats:
         """Energy that a force element stores and power that it dissipates, (…, 2), J and W."""
@@ -327,6 +334,15 @@ class Motion:
             ModelError: there is no such force element; the error is also a ``KeyError``.
         """
         return ForceView(self, entry("force", name, self.compiled.forces))
+
+    def beam(self, name: str) -> BeamView:
+        """A beam by name, with its shape, internal forces and stress along its arc length.
+
+        Raises:
+            ModelError: there is no such beam; the error is also a ``KeyError``.
+        """
+        beams = {k: body for k, body in self.compiled.bodies.items() if body.type == "beam"}
+        return BeamView(self, entry("beam", name, beams))
 
     # The type of the result depends on the name, which a type checker cannot follow. Checked code
     # uses the methods above.

@@ -26,6 +26,7 @@ from kempe.model.compiled import (
     ForceInfo,
     Vector,
 )
+from kempe.results.views import beam
 from kempe.results.views.frames import FRAMES
 
 if TYPE_CHECKING:
@@ -135,11 +136,13 @@ def values_of(motion: Motion, info: MeasureInfo, energy: Energy | None = None) -
 def _owners(motion: Motion) -> Iterator[str]:
     compiled = motion.compiled
     for name, info in compiled.all_bodies.items():
+        if not info.is_shown:
+            continue
         yield name
         for point in info.points:
             yield f"{name}.{point}"
     yield from compiled.constraints
-    yield from compiled.forces
+    yield from compiled.shown_forces
     yield from ("energy", "drift")
 
 
@@ -154,7 +157,8 @@ def _family(motion: Motion, owner: str) -> Family | None:
     body, _, point = owner.rpartition(".")
     info = compiled.all_bodies.get(body)
     if info is not None and point in info.points:
-        return of_point(motion, body, point)
+        of_frame = of_body(motion, info) if info.type == "beam" else {}
+        return {**of_frame, **of_point(motion, body, point)}
     return _of_run(motion, owner)
 
 
@@ -163,11 +167,26 @@ def of_body(motion: Motion, info: BodyInfo) -> Family:
     view = motion.body(info.name)
     count = info.count if info.number else len(COORDINATES)
     families = zip((COORDINATES, RATES, ACCELERATIONS), UNITS, strict=True)
-    return {
+    own = of_beam(motion, info.name) if info.type == "beam" else {}
+    found = {
         name: Quantity(unit, partial(getattr, view, name))
         for known, units in families
         for name, unit in zip(known[:count], units[:count], strict=True)
     }
+    return {**found, **own}
+
+
+def of_beam(motion: Motion, name: str) -> Family:
+    """The largest stress and bending moment along a beam, and its strain energy."""
+    return {
+        quantity: Quantity(unit, partial(_of_beam, motion, name, quantity))
+        for quantity, unit, _ in beam.WHOLE
+        if quantity != "stress" or beam.has_stress(motion.compiled, name)
+    }
+
+
+def _of_beam(motion: Motion, name: str, quantity: str) -> Any:
+    return scalar(beam.whole(motion, name, quantity))
 
 
 def of_point(motion: Motion, body: str, point: str) -> Family:

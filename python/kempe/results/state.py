@@ -155,7 +155,7 @@ class State(Motion):
         columns = [(name, self.variable.rate(unit), usual) for name, unit, usual in _COLUMNS]
         header = [heading(name, unit, usual) for name, unit, usual in columns]
         rows = []
-        for name, info in self.compiled.bodies.items():
+        for name, info in self.compiled.named_bodies.items():
             body, row = self.body(name), [name]
             for quantity, unit, usual in columns:
                 turning = quantity in ("angle", "omega")
@@ -185,7 +185,7 @@ class State(Motion):
 
     def __repr__(self) -> str:
         at = f"{self.variable.name} = {self.t:g} {self.variable.unit}"
-        return f"<State of {self.compiled.title!r} at {at}: {few(self.compiled.bodies)}>"
+        return f"<State of {self.compiled.title!r} at {at}: {few(self.compiled.shown_bodies)}>"
 
     def _repr_html_(self) -> str:
         return str(CALLS["html"](self))

@@ -45,7 +45,7 @@ def summary(solution: Solution) -> dict[str, Any]:
         "end": solution.final.coordinates(),
         "peaks": {
             "reactions": [reaction(sampled, name) for name in compiled.constraints],
-            "forces": [force(sampled, name) for name in compiled.forces],
+            "forces": [force(sampled, name) for name in compiled.shown_forces],
             "residual": residual(sampled),
             "residual_rate": max(_largest_rate(solution), _largest_rate(sampled.steps)),
         },
@@ -56,7 +56,7 @@ def summary(solution: Solution) -> dict[str, Any]:
         "events": {name: event.t.tolist() for name, event in solution.events.items()},
         "settling": []
         if _is_driven(compiled)
-        else [settling_of(sampled, name) for name in compiled.bodies],
+        else [settling_of(sampled, name) for name in compiled.shown_bodies],
         "statistics": {k: v for k, v in solution.statistics.items() if k != "singular"},
     }
 
@@ -81,10 +81,10 @@ def mechanism(state: State) -> dict[str, Any]:
     """Elements of the mechanism, and its degrees of freedom in a state."""
     model = state.compiled
     return {
-        "bodies": list(model.bodies),
+        "bodies": list(model.shown_bodies),
         "joints": list(model.joints),
         "drivers": list(model.drivers),
-        "forces": list(model.forces),
+        "forces": list(model.shown_forces),
         "coordinates": model.n_q,
         "equations": model.n_rows,
         "degrees_of_freedom": state.matrices().degrees_of_freedom,

@@ -105,7 +105,7 @@ def column(name: str, unit: str, values: Floats) -> Column:
 def column_names(solution: Solution, extent: Extent) -> Iterator[str]:
     """Names of the columns, in their order."""
     compiled = solution.compiled
-    for name, body in compiled.bodies.items():
+    for name, body in compiled.named_bodies.items():
         yield from (f"{name}.{quantity}" for quantity in quantities.of_body(solution, body))
     for point in _points(solution, extent.points):
         yield from (f"{point}.{quantity}" for quantity in ("x", "y"))
@@ -118,7 +118,7 @@ def column_names(solution: Solution, extent: Extent) -> Iterator[str]:
         for frame in map(checked_frame, frames):
             yield from _reactions(solution, name, frame)
     yield from compiled.state_names()
-    for name, force in compiled.forces.items():
+    for name, force in compiled.shown_forces.items():
         yield from (f"{name}.force",) if force.points is not None else ()
         yield f"{name}.torque_on_{force.j}"
     yield from (f"energy.{name}" for name in quantities.ENERGIES)

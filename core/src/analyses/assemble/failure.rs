@@ -116,6 +116,19 @@ pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
     })
 }
 
+/// The failure of a mechanism with rigid beams.
+pub(super) fn of_rigid(failure: Failure) -> Box<Failure> {
+    let hint = match failure.fault {
+        Fault::Open => format!(
+            "{}; beams start unbent: to bend one by its joints, start where the mechanism closes with rigid \
+             beams, and move a point by a driver",
+            failure.hint
+        ),
+        _ => failure.hint.clone(),
+    };
+    Box::new(Failure { hint, ..failure })
+}
+
 /// The table that a law evaluates outside its range.
 fn refusal(model: &Model, item: &ConstraintItem, motions: &Motions, t: f64) -> Option<String> {
     let values = at(&model.parameters, motions, &[], t);

@@ -128,12 +128,19 @@ struct Complete {
     asked: Targets,
     /// The model with drivers for the positions that are set.
     extended: Model,
+    /// The mechanism with rigid beams, if it has beams, and its closure.
+    rigid: Option<(Model, Box<Complete>)>,
 }
 
 impl Complete {
     /// The state with the complete report.
     fn described(self, model: &Model, request: &Request, stop: Halt<'_>) -> (State, Report) {
-        let Self { state, mut report, asked, extended } = self;
+        let Self { state, mut report, asked, extended, rigid } = self;
+        if let Some((rigid, start)) = rigid {
+            let (_, mut of_start) = start.described(&rigid, request, stop);
+            of_start.degrees_of_freedom = report.degrees_of_freedom;
+            return (state, of_start);
+        }
         let State { q, v, .. } = &state;
         report.unset = unset::unset([model, &extended], request, &asked, [q, v], stop);
         describe(model, &asked, q, &mut report);
@@ -141,7 +148,22 @@ impl Complete {
     }
 }
 
+/// Closes a mechanism. Beams are closed as rigid bodies first, and their nodes keep these positions and rates.
 fn complete(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete, Box<Failure>> {
+    match model.rigid().filter(|_| request.state.is_none()) {
+        Some(rigid) => {
+            let start =
+                elastic(&rigid, request, stop).map_err(|failure| failure::of_rigid(*failure))?;
+            let state = Some(start.state.clone());
+            let closed =
+                elastic(model, &Request { state, guess: Vec::new(), ..request.clone() }, stop)?;
+            Ok(Complete { rigid: Some((rigid, Box::new(start))), ..closed })
+        }
+        None => elastic(model, request, stop),
+    }
+}
+
+fn elastic(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete, Box<Failure>> {
     let given = meshed_as_given(model, request);
     let model = given.as_ref().unwrap_or(model);
     let asked = asked(model, request, &request.guess);
@@ -199,7 +221,7 @@ fn complete(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete
     };
     let v = rates::consistent(model, request, &q, stop)?;
     let state = State { t: request.t, q, v, z: states(model, request) };
-    Ok(Complete { state, report, asked, extended })
+    Ok(Complete { state, report, asked, extended, rigid: None })
 }
 
 /// The model with the phases of a given state in which all joints but those of meshed wheels are closed.

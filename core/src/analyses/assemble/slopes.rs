@@ -51,6 +51,8 @@ pub fn slopes(
     (parameters, set): (&[Slope], &[Slope]),
     state: &State,
 ) -> Result<StartSlopes, String> {
+    let rigid = model.rigid().filter(|_| request.state.is_none());
+    let model = rigid.as_ref().unwrap_or(model);
     let known = StartNumbers { model, request, parameters, set, t: request.t };
     let q = known.positions(&state.q)?;
     let v = known.rates(&q, &state.v)?;

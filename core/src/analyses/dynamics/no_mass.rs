@@ -2,7 +2,7 @@
 
 use crate::elements::BodyId;
 use crate::math::Listed;
-use crate::model::{Model, Slots};
+use crate::model::{beam_of, Model, Slots, BEAM, NODE};
 
 /// The name of a body, or of a joint with internal coordinates, and a message that nothing resists the motion of this
 /// coordinate.
@@ -16,6 +16,9 @@ pub(super) fn undetermined(model: &Model, t: f64, column: usize) -> (String, Str
         return (name, message);
     }
     let (id, place) = model.layout.body_of(column).unwrap_or((BodyId::GROUND, 0));
+    if [BEAM, NODE].contains(&model.bodies[id.0].kind) {
+        return of_beam(beam_of(&model.bodies[id.0].name), model.bodies[id.0].mass > 0.0, t);
+    }
     let name = model.bodies[id.0].name.clone();
     let joints = joined(model, id).join(", ");
     let message = match model.bodies[id.0].mass > 0.0 {
@@ -38,6 +41,19 @@ pub(super) fn undetermined(model: &Model, t: f64, column: usize) -> (String, Str
         }
     };
     (name, message)
+}
+
+/// The message for a beam without mass, or whose sections have no moment of inertia.
+fn of_beam(beam: &str, has_mass: bool, t: f64) -> (String, String) {
+    let (lacks, remedy) = match has_mass {
+        true => ("moment of inertia of its sections", "give inertia_per_length > 0"),
+        false => ("mass", "give density or mass_per_length > 0"),
+    };
+    let message = format!(
+        "the motion of beam {beam} is not determined at t = {t:.6} s: it has no {lacks}; {remedy}, or compute \
+         its equilibrium"
+    );
+    (beam.to_string(), message)
 }
 
 fn without_inertia(model: &Model, t: f64, id: BodyId, joints: &str) -> String {

@@ -15,7 +15,7 @@ use crate::analyses::rigid::RigidContacts;
 use crate::analyses::second_order::mobility;
 use crate::analyses::State;
 use crate::math::Listed;
-use crate::model::Model;
+use crate::model::{Model, BEAM};
 use std::sync::Arc;
 
 /// Largest motion over a step: the root mean square over the coordinates, lengths relative to the size of the mechanism.
@@ -74,6 +74,9 @@ impl<'a> Continuation<'a> {
         }
         let freedom = mobility(model, *t, q);
         if freedom.degrees_of_freedom > 0 && freedom.singular.is_empty() {
+            if let Some(beam) = model.bodies.iter().find(|body| body.kind == BEAM) {
+                return Err(Reason::Bends(beam.name.clone()).into());
+            }
             return Err(Reason::Free { degrees_of_freedom: freedom.degrees_of_freedom }.into());
         }
         match solver.point(*t, q.clone()) {

@@ -29,6 +29,8 @@ pub enum Reason {
         /// The number of degrees of freedom that remain.
         degrees_of_freedom: usize,
     },
+    /// The shape of a beam, by its name, is not determined by drivers.
+    Bends(String),
     /// The start does not satisfy the constraints.
     Open {
         /// The time, s.
@@ -150,6 +152,10 @@ impl fmt::Display for Reason {
                 f,
                 "the drivers leave {n} degree{} of freedom; kinematics needs a driver for each",
                 if *n == 1 { "" } else { "s" }
+            ),
+            Self::Bends(beam) => write!(
+                f,
+                "drivers do not determine the shape of beam {beam}"
             ),
             Self::Open { t, name, gap, unit } => write!(
                 f,

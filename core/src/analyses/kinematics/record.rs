@@ -276,6 +276,9 @@ impl From<Reason> for Outcome {
                 let outcome = Self { problems, ..Self::new(ErrorClass::Model, message) };
                 outcome.hint("add a coordinate_driver for each, or use dynamics")
             }
+            Reason::Bends(beam) => Self::new(ErrorClass::Model, message).name(beam).hint(
+                "compute an equilibrium over the driven quantity, or use dynamics",
+            ),
             Reason::Open { t, name, .. } => Self::new(ErrorClass::Assembly, message)
                 .name(name)
                 .at(*t)

@@ -1,0 +1,236 @@
+//! Stiffness and mass of a beam: from a section and a material, or as given.
+
+use super::super::body_reader::{term, Reader};
+use super::super::definition::Value;
+use super::super::scope::Reach;
+use crate::expression::Tape;
+use crate::math::Listed;
+
+/// The constants of a section.
+pub struct Stiffness {
+    pub axial: Tape,
+    pub shear: Tape,
+    pub bending: Tape,
+    /// Stress for a normal force of 1 N and at the faces for a bending moment of 1 N·m; zero without a section.
+    pub by_force: Tape,
+    pub by_moment: Tape,
+    /// Mass and moment of inertia per length, as text.
+    pub mass: String,
+    pub inertia: String,
+}
+
+/// A cross section, as texts.
+struct SectionTexts {
+    area: String,
+    /// Second moment of area.
+    second: String,
+    /// Distance of the faces from the centre line.
+    face: String,
+    /// Ratio of the effective area in shear to the area.
+    factor: &'static str,
+}
+
+const GIVEN: [&str; 3] = ["EA", "EI", "GA"];
+
+/// Reads the section and the material of a beam.
+pub fn read(reader: &mut Reader<'_>) -> Option<Stiffness> {
+    let sheared = reader.entry.get("shear") != Some(&Value::Flag(false));
+    match reader.entry.get("section") {
+        Some(_) => of_section(reader, sheared),
+        None => as_given(reader, sheared),
+    }
+}
+
+fn as_given(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
+    for key in ["young", "poisson", "density"] {
+        if reader.entry.get(key).is_some() {
+            let instead = if key == "density" { "mass_per_length" } else { "EA, EI and GA" };
+            let message = format!("has no meaning without a section; give section, or {instead}");
+            reader.report(key, &message);
+            return None;
+        }
+    }
+    let needed = if sheared { &GIVEN[..] } else { &GIVEN[..2] };
+    if let Some(key) = needed.iter().find(|key| reader.entry.get(key).is_none()) {
+        let or = match *key {
+            "GA" => "; a GA as large as EA leaves little shear",
+            _ => "",
+        };
+        let all = GIVEN.join(", ");
+        reader.missing(&format!("'{key}' is missing; give section and young, or all of {all}{or}"));
+        return None;
+    }
+    let [axial, bending] =
+        [("EA", "N"), ("EI", "N*m^2")].map(|(key, unit)| reader.number(key, unit));
+    let shear = match reader.entry.get("GA") {
+        Some(_) => reader.number("GA", "N"),
+        None => Some(Tape::from(1.0)),
+    };
+    for key in GIVEN {
+        // a quotient of two of them follows
+        let x = reader.entry.get(key).map_or(1.0, |value| reader.value(&term(value)));
+        if x <= 0.0 {
+            reader.report(key, &format!("{x}; must be > 0"));
+            return None;
+        }
+    }
+    let texts = ["EA", "EI"].map(|key| reader.entry.get(key).map_or(String::new(), term));
+    let (mass, inertia) = masses(reader, None, &format!("{}/{}", texts[1], texts[0]))?;
+    let (by_force, by_moment) = (Tape::from(0.0), Tape::from(0.0));
+    let (axial, bending, shear) = (axial?, bending?, shear?);
+    Some(Stiffness { axial, shear, bending, by_force, by_moment, mass, inertia })
+}
+
+fn of_section(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
+    for key in GIVEN {
+        if reader.entry.get(key).is_some() {
+            let message =
+                format!("given beside section, which determines it; remove {key} or section");
+            reader.report(key, &message);
+            return None;
+        }
+    }
+    let shape = shape(reader)?;
+    if reader.entry.get("young").is_none() {
+        reader.missing("'young' is missing: a section needs Young's modulus, such as \"210 GPa\"");
+        return None;
+    }
+    reader.number("young", "Pa")?;
+    let young = term(reader.entry.get("young")?);
+    let poisson = match reader.entry.get("poisson") {
+        Some(value) => {
+            reader.number("poisson", "")?;
+            term(value)
+        }
+        None => "0.3".to_string(),
+    };
+    let of = reader.value(&poisson);
+    if !(-1.0 < of && of <= 0.5) {
+        reader.report("poisson", &format!("{of}; must be between -1 and 0.5"));
+        return None;
+    }
+    let SectionTexts { area, second, face, factor } = shape;
+    let axial = reader.compose(&format!("{young}*{area}"));
+    let bending = reader.compose(&format!("{young}*{second}"));
+    let shear = match sheared {
+        true => reader.compose(&format!("{factor}*{young}*{area}/(2*(1+{poisson}))")),
+        false => Tape::from(1.0),
+    };
+    let by_force = reader.compose(&format!("1/{area}"));
+    let by_moment = reader.compose(&format!("{face}/{second}"));
+    let (mass, inertia) = masses(reader, Some(&area), &format!("{second}/{area}"))?;
+    Some(Stiffness { axial, shear, bending, by_force, by_moment, mass, inertia })
+}
+
+/// Mass and moment of inertia per length. `radius` is the squared radius of gyration of the section.
+fn masses(reader: &mut Reader<'_>, area: Option<&str>, radius: &str) -> Option<(String, String)> {
+    let given = |reader: &Reader<'_>, key: &str| reader.entry.get(key).map(term);
+    let mass = match (given(reader, "density"), given(reader, "mass_per_length"), area) {
+        (Some(_), Some(_), _) => {
+            reader.report("mass_per_length", "given beside density; remove one of them");
+            return None;
+        }
+        (Some(density), None, Some(area)) => {
+            reader.number("density", "kg/m^3")?;
+            format!("{density}*{area}")
+        }
+        (_, Some(mass), _) => {
+            reader.number("mass_per_length", "kg/m")?;
+            mass
+        }
+        _ => {
+            let key =
+                if area.is_some() { "'density' or 'mass_per_length'" } else { "'mass_per_length'" };
+            reader.missing(&format!(
+                "{key} is missing; it may be 0 where only equilibria are computed"
+            ));
+            return None;
+        }
+    };
+    let inertia = match given(reader, "inertia_per_length") {
+        Some(inertia) => {
+            reader.number("inertia_per_length", "kg*m")?;
+            inertia
+        }
+        None => format!("({mass}*{radius})"),
+    };
+    Some((format!("({mass})"), inertia))
+}
+
+fn shape(reader: &mut Reader<'_>) -> Option<SectionTexts> {
+    let form =
+        "{ rectangle = [height, width] }, { circle = diameter } or { tube = [outer, inner] }";
+    let Some(Value::Table(fields)) = reader.entry.get("section") else {
+        reader.report("section", &format!("must be {form}"));
+        return None;
+    };
+    let [(kind, value)] = &fields[..] else {
+        reader.report("section", &format!("must have exactly one key: {form}"));
+        return None;
+    };
+    let path: Vec<String> = reader.path("section").into_iter().chain([kind.clone()]).list();
+    let texts = match (kind.as_str(), value) {
+        ("rectangle" | "tube", Value::List(items)) if items.len() == 2 => {
+            reader.scope.pair(value, &path, "m", reader.problems)?;
+            items.iter().map(term).list()
+        }
+        ("circle", value) => {
+            let reach = Reach::Parameters;
+            reader.scope.formula(value, &path, "m", reach, reader.problems)?;
+            vec![term(value)]
+        }
+        _ => {
+            reader.report("section", &format!("must be {form}"));
+            return None;
+        }
+    };
+    let numbers: Vec<f64> = texts.iter().map(|text| reader.value(text)).list();
+    let least = if kind == "tube" { 0.0 } else { f64::MIN_POSITIVE };
+    let possible = numbers[0] > 0.0
+        && numbers.iter().all(|x| *x >= least && x.is_finite())
+        && !(kind == "tube" && numbers[1] >= numbers[0]);
+    if !possible && numbers.iter().all(|x| !x.is_nan()) {
+        let words = numbers.iter().map(|x| format!("{x} m")).list().join(" and ");
+        let must = if kind == "tube" {
+            "the outer diameter must be larger than the inner one"
+        } else {
+            "must be > 0"
+        };
+        reader.report("section", &format!("{kind} of {words}; {must}"));
+        return None;
+    }
+    Some(texts_of(kind, &texts))
+}
+
+/// Area, second moment of area, distance of the faces and shear factor of a section with these dimensions.
+fn texts_of(kind: &str, texts: &[String]) -> SectionTexts {
+    match kind {
+        "rectangle" => {
+            let (h, w) = (&texts[0], &texts[1]);
+            SectionTexts {
+                area: format!("({h}*{w})"),
+                second: format!("({w}*{h}^3/12)"),
+                face: format!("({h}/2)"),
+                factor: "(5/6)",
+            }
+        }
+        "circle" => {
+            let d = &texts[0];
+            SectionTexts {
+                area: format!("(pi*{d}^2/4)"),
+                second: format!("(pi*{d}^4/64)"),
+                face: format!("({d}/2)"),
+                factor: "0.9",
+            }
+        }
+        _ => {
+            let (outer, inner) = (&texts[0], &texts[1]);
+            SectionTexts {
+                area: format!("(pi*({outer}^2-{inner}^2)/4)"),
+                second: format!("(pi*({outer}^4-{inner}^4)/64)"),
+                face: format!("({outer}/2)"),
+                factor: "0.5",
+            }
+        }
+    }
+}

@@ -1,0 +1,120 @@
+"""Beams as entries of a model: bad input, references, lists, cases, starts."""
+
+from __future__ import annotations
+
+import json
+import pickle
+from typing import Any
+
+import kempe as kp
+import numpy as np
+import pytest
+
+SECTION = kp.Section.rectangle(height=0.01, width=0.01)
+GIVEN: dict[str, Any] = {"length": 1, "section": SECTION, "young": 1e9, "density": 1e3}
+LOOP = [(0, 0), (1, 1), (1, 0), (0, 1)]
+
+
+def clamped(**fields: Any) -> kp.Model:
+    m = kp.Model("clamped")
+    m.ground.points(O=(0, 0))
+    m.beam("rod", **{key: x for key, x in {**GIVEN, **fields}.items() if x is not None})
+    m.weld("clamp", "ground.O", "rod.A")
+    return m
+
+
+@pytest.mark.parametrize(
+    ("fields", "words"),
+    [
+        ({"young": 0}, "the stiffness EA of the beam is 0 N; must be > 0"),
+        ({"young": -1e9}, "must be > 0"),
+        ({"young": None}, "'young' is missing"),
+        ({"section": None, "young": None, "density": None, "EA": 1, "EI": 1}, "'GA' is missing"),
+        ({"section": None}, "has no meaning without a section"),
+        ({"length": -1}, "-1 m; must be > 0"),
+        ({"length": None}, "needs one of 'length', 'through' and 'arc'"),
+        ({"density": -1}, "must not be negative"),
+        ({"density": None}, "'density' or 'mass_per_length' is missing"),
+        ({"points": {"P": 1.2}}, "P is at 1.2 m, outside the beam of 1 m"),
+        ({"points": {"P": "120 %"}}, "outside the beam"),
+        ({"points": {"P": 0.5, "Q": 0.5}}, "at the same place as P"),
+        ({"points": {"P": 0.5}, "elements": 1}, "at least 2 elements are needed"),
+        ({"length": None, "through": LOOP}, "crosses itself"),
+        ({"length": None, "arc": (0, 0, 1, 0, 7)}, "does not cross itself"),
+        ({"section": kp.Section.tube(0.01, 0.02)}, "larger than the inner one"),
+        ({"poisson": 0.7}, "between -1 and 0.5"),
+        ({"damping": -1}, "must be ≥ 0"),
+        ({"shear": False}, "remove shear, and give GA or a section"),
+        ({"inextensible": True}, "remove inextensible, and give EA or a section"),
+    ],
+)
+def test_bad_input_is_refused(fields: dict[str, Any], words: str) -> None:
+    with pytest.raises(kp.KempeError) as refused:
+        clamped(**fields).compile()
+    assert words in str(refused.value)
+
+
+def test_a_beam_without_mass_has_equilibria_only() -> None:
+    m = clamped(density=0)
+    start = kp.assemble(m)
+    with pytest.raises(kp.KempeError, match=r"beam rod is not determined.*density"):
+        kp.dynamics(m, start, t_end=0.1)
+    assert kp.equilibrium(m, start).state["rod.B.x"] == pytest.approx(1)
+
+
+def test_drivers_do_not_determine_a_beam() -> None:
+    m = clamped(elements=2)
+    start = kp.assemble(m)
+    with pytest.raises(kp.KempeError, match=r"shape of beam rod.*equilibrium"):
+        kp.kinematics(m, start, t_end=0.1)
+    assert kp.equilibrium(m, start).stable
+
+
+def test_lists_show_a_beam_as_one() -> None:
+    m = clamped(points={"P": "25 %"})
+    state = kp.assemble(m)
+    assert "#" not in str(state)
+    assert {"rod.B", "rod.P"} <= {line.split()[0] for line in str(state).splitlines() if line}
+    solution = kp.dynamics(m, state, t_end=1e-4)
+    about = solution.summary["mechanism"]
+    assert about["bodies"] == ["rod"]
+    assert about["forces"] == []
+    assert not [name for name in solution.to_dataframe().columns if "#" in str(name)]
+
+
+def test_a_beam_is_saved_and_pickled() -> None:
+    m = clamped(points={"P": 0.25}, elements=3, damping=1e-3)
+    again = pickle.loads(pickle.dumps(m))
+    assert again.json() == m.json()
+    rod = json.loads(m.json())["bodies"]["rod"]
+    assert rod["section"] == {"rectangle": [0.01, 0.01]}
+
+
+def test_a_loop_closes_with_rigid_beams() -> None:
+    m = kp.Model("four-bar")
+    m.ground.points(O=(0, 0), D=(0.4, 0))
+    m.bar("crank", mass=0.5, length=0.1, ends=("O", "A"))
+    m.bar("coupler", mass=0.8, length=0.35, ends=("A", "B"))
+    m.beam("rocker", ends=("D", "B"), **{**GIVEN, "length": 0.3, "points": {"P": "50 %"}})
+    for name, i, j in (
+        ("O", "ground.O", "crank.O"),
+        ("A", "crank.A", "coupler.A"),
+        ("B", "coupler.B", "rocker.B"),
+        ("D", "ground.D", "rocker.D"),
+    ):
+        m.revolute(name, i, j)
+    state = kp.assemble(m, set={"crank.angle": 1.0, "crank.omega": 2.0})
+    assert state.beam("rocker").strain_energy < 1e-20
+    assert state["rocker.P.angle"] == pytest.approx(state["rocker.angle"], abs=1e-12)
+    assert state["rocker.B.omega"] == pytest.approx(state["rocker.omega"], abs=1e-12)
+    turned = np.array([state["rocker.B.x"] - 0.4, state["rocker.B.y"]])
+    assert np.hypot(*turned) == pytest.approx(0.3, abs=1e-12)
+
+
+def test_a_beam_without_section_has_no_stress() -> None:
+    given = {"EA": 1e5, "EI": 1.0, "GA": 1e5, "mass_per_length": 1.0}
+    state = kp.assemble(clamped(section=None, young=None, density=None, **given))
+    with pytest.raises(kp.KempeError, match="give section and young"):
+        _ = state.beam("rod").stress
+    with pytest.raises(kp.KempeError, match="unknown quantity"):
+        _ = state["rod.stress"]
