@@ -138,8 +138,8 @@ if TYPE_CHECKING:
     from kempe.errors import ModelError as ModelError
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
-    from kempe.fmu.export import export_fmu as export_fmu
     from kempe.exercise import Exercise as Exercise
+    from kempe.fmu.export import export_fmu as export_fmu
     from kempe.lab_report import write_report as write_report
     from kempe.loading import load as load
     from kempe.mjcf.writer import write_mjcf as write_mjcf

@@ -30,7 +30,13 @@ def gears(
     for name, inertia, point in (("i", 0.03, "O"), ("j", 0.4, "Q")):
         m.body(name, mass=mass, inertia=inertia * mass * size**2, points={"O": (0, 0)})
         m.revolute(f"pin_{name}", f"ground.{point}", f"{name}.O")
-    given: dict[str, Any] = {"radii": radii, "internal": internal, "backlash": "b", "restitution": "e", **fields}
+    given: dict[str, Any] = {
+        "radii": radii,
+        "internal": internal,
+        "backlash": "b",
+        "restitution": "e",
+        **fields,
+    }
     # at the start, the teeth are in the middle of their play for any direction of the centres
     angle = np.arctan2(place[1], place[0])
     sigma = -1 if internal else 1

@@ -282,86 +282,6 @@ def stopped_below(of: Units) -> Made:
     return Made(m, measures, start, end=2.5, changes=True)
 
 
-def touching(of: Units) -> Made:
-    """A ball falls on a curved floor and rubs on it."""
-    s, v = of.size, of.size * of.rate
-    m = of.model(
-        r=(0.2, s),
-        k=(1000, of.stiffness / s**0.5),
-        n=(1.5, 1),
-        c=(0.2, 1 / v),
-        mu=(0.3, 1),
-        v0=(0.05, v),
-        a=(0.2, 1 / s),
-    )
-    m.ground.curves(floor={"x": "u", "y": "a * u^2", "range": [-5 * s, 5 * s]})
-    of.disc(m, "ball", {"C": (0, 0)}, center=(0.03 * s, 0.01 * s))
-    m.contact(
-        "touch",
-        "ball.C",
-        "ground.floor",
-        radius="r",
-        side="left",
-        stiffness="k",
-        exponent="n",
-        damping="c",
-        friction="mu",
-        velocity="v0",
-    )
-    start = {"ball.x": of.near(0.6) * s, "ball.y": s, "ball.vx": 0.5 * v, "ball.angle": 0.0}
-    measures = ["ball.x.final", "ball.y.final", "ball.omega.final", "touch.force.max"]
-    return Made(
-        m, [*measures, "energy.dissipated.final", "touch.gap.final"], start, end=2.5, changes=True
-    )
-
-
-def rolling_over(of: Units) -> Made:
-    """A disc slips on a compliant floor, rolls, and slips again under a growing torque."""
-    s, v = of.size, of.size * of.rate
-    weight = of.mass * v * of.rate
-    m = of.model(
-        r=(0.2, s), k=(4000, weight / s), c=(0.2, 1 / v), mu=(0.3, 1), most=(0.5, 1), tilt=(0.1, s)
-    )
-    m.torque("turn", "ball", torque=f"-{0.12 * weight * s * of.rate}*t")
-    m.ground.curves(floor={"line": [["-20*r", "-tilt"], ["20*r", "tilt"]]})
-    of.disc(m, "ball", {"C": (0, 0)}, center=(0.01 * s, 0))
-    m.contact(
-        "touch",
-        "ball.C",
-        "ground.floor",
-        radius="r",
-        side="left",
-        stiffness="k",
-        exponent=1,
-        damping="c",
-        friction="mu",
-        static="most",
-    )
-    start = {"ball.x": of.near(0.6) * s, "ball.y": 0.3 * s, "ball.vx": 0.5 * v, "ball.angle": 0.0}
-    measures = ["ball.x.final", "ball.omega.final", "energy.dissipated.final"]
-    return Made(m, measures, start, end=2.0, changes=True)
-
-
-def bouncing(of: Units) -> Made:
-    """A ball bounces on a tilted floor."""
-    s, v = of.size, of.size * of.rate
-    m = of.model(r=(0.2, s), e=(0.8, 1), rise=(0.3, s))
-    m.ground.curves(floor={"line": [[-5 * s, 0], [5 * s, "rise"]]})
-    of.disc(m, "ball", {"C": (0, 0)}, center=(0.03 * s, 0.01 * s))
-    m.contact(
-        "touch",
-        "ball.C",
-        "ground.floor",
-        radius="r",
-        side="left",
-        restitution="e",
-        rest_speed=1e-9 * v,
-    )
-    start = {"ball.x": of.near(0.6) * s, "ball.y": s, "ball.vx": 0.5 * v, "ball.angle": 0.0}
-    measures = ["ball.x.final", "ball.vy.final", "ball.vy.max", "energy.dissipated.final"]
-    return Made(m, [*measures, "touch.gap.final"], start, end=3.5, changes=True)
-
-
 def bending(of: Units) -> Made:
     """A clamped beam with a load at its tip and a point on it."""
     s, pressure = of.size, of.force / of.size**2
@@ -402,7 +322,4 @@ FORCES: list[Maker] = [
     clutched,
     stopped,
     stopped_below,
-    touching,
-    rolling_over,
-    bouncing,
 ]

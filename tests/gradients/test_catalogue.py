@@ -8,6 +8,7 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
+from gradients.catalogue_contacts import CONTACTS
 from gradients.catalogue_forces import FORCES
 from gradients.catalogue_joints import JOINTS, Made, Maker, Units, slide_on_a_bar
 from gradients.test_random import differences
@@ -19,7 +20,7 @@ EXACT = kp.DOP853(rtol=1e-12, atol=1e-14)
 STEPS = (1e-3, 2e-3, 4e-3), (2e-5, 4e-5, 8e-5)
 #: Largest error of a slope, as a part of its scale, and that of most slopes.
 MOST, USUAL = 1e-5, 1e-7
-ALL = [*JOINTS, *FORCES]
+ALL = [*JOINTS, *FORCES, *CONTACTS]
 #: Numbers on which nothing depends: axes of a revolute joint turn the frame of its reaction.
 STILL = {slide_on_a_bar: {"a", "b"}}
 #: Numbers that cannot change a little, and a threshold.

@@ -19,11 +19,12 @@ def crank() -> kp.Model:
 
 @pytest.mark.parametrize("over", ["drive", "crank.angle"])
 def test_an_angle_takes_angles_only(over: str) -> None:
-    sol = kp.kinematics(crank(), over=over, range=(0, "90 deg"), n=3)
+    start = kp.assemble(crank())
+    sol = kp.kinematics(crank(), start, over=over, range=(0, "90 deg"), n=3)
     assert_allclose(sol["crank.angle"], [0, 0.7853981633974483, 1.5707963267948966])
     for wrong in ("5 kg", "0.1 m"):
         with pytest.raises(kp.ModelError, match="range"):
-            kp.kinematics(crank(), over=over, range=(0, wrong), n=3)
+            kp.kinematics(crank(), start, over=over, range=(0, wrong), n=3)
 
 
 def test_a_length_takes_lengths_only() -> None:

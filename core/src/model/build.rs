@@ -2,6 +2,7 @@
 
 use super::blueprint::Blueprint;
 use super::definition::{Definition, Value};
+use super::items::Body;
 use super::model::Model;
 use super::parameters::{self, Evaluated};
 use super::problem::Problem;
@@ -50,12 +51,7 @@ pub fn build(
     let mut rigid = (!linked.is_empty()).then(|| blueprint.clone());
     blueprint.link_all(definition, &scope, &quantities, &mut problems);
     if let Some(rigid) = rigid.as_mut().filter(|_| problems.is_empty()) {
-        let bodies = beams::rigid_bodies(&bodies, &linked);
-        let quantities = Elements::new(definition, &scope, &bodies);
-        rigid.bodies = bodies.clone().into();
-        rigid.allow_redundancy = true;
-        rigid.link_all(definition, &scope, &quantities, &mut problems);
-        beams::weld(rigid, &linked);
+        link_rigid(rigid, (definition, &scope), (&bodies, &linked), &mut problems);
     }
     blueprint.rigid = rigid.map(Arc::new);
     beams::connect(&mut blueprint, linked);
@@ -75,6 +71,21 @@ pub fn build(
     } else {
         Err(problems)
     }
+}
+
+/// Links the form of the mechanism in which beams are rigid.
+fn link_rigid(
+    rigid: &mut Blueprint,
+    (definition, scope): (&Definition, &Scope),
+    (bodies, beams): (&[Body<Tape>], &[beams::Linked]),
+    problems: &mut Vec<Problem>,
+) {
+    let bodies = beams::rigid_bodies(bodies, beams);
+    let quantities = Elements::new(definition, scope, &bodies);
+    rigid.bodies = bodies.clone().into();
+    rigid.allow_redundancy = true;
+    rigid.link_all(definition, scope, &quantities, problems);
+    beams::weld(rigid, beams);
 }
 
 fn gravity(definition: &Definition, scope: &Scope, problems: &mut Vec<Problem>) -> [Tape; 2] {

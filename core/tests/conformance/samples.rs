@@ -3,8 +3,7 @@
 use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
 use kempe::elements::forces::{
-    Actuator, Bushing, Clutch, GeneralizedForce, Motor, PointForce, SpringDamper, Torque,
-    TorsionSpring,
+    Actuator, Bushing, Clutch, GeneralizedForce, Motor, PointForce, Torque, TorsionSpring,
 };
 use kempe::elements::joints::{
     Belt, Coupling, Distance, FlatOnCurve, Gear, GivenConstraint, PinInSlot, PointOnCurve, Rack,
@@ -16,7 +15,7 @@ use kempe::elements::test_elements::{
 use kempe::elements::QuantityKind;
 use kempe::elements::{
     catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveFormula, CurveOn,
-    CurvePoints, ForceElement, Frame, Group, JointId, Linearized, Moving, Only, PointOn, Side,
+    CurvePoints, ForceElement, Frame, Group, JointId, Linearized, Moving, PointOn, Side,
 };
 use kempe::expression::{Expression, FormulaValues, Names, Symbol, Tape};
 use kempe::math::{Interpolation, Local, Motion, Pose, Real, Twist, Vec2};
@@ -251,7 +250,7 @@ pub fn forces() -> Vec<ForceElement> {
     let coordinate = CoordinateOf { body: j, coordinate: Coordinate::Angle }.into();
     all.push(ForceElement::GeneralizedForce(GeneralizedForce { coordinate, value: 0.9 }));
     all.push(ForceElement::Actuator(Actuator { i: from, j: to, force: 1.4 }));
-    all.extend(springs());
+    all.extend(crate::spring_damper::springs());
     all.extend(crate::touching::stops());
     all.extend(crate::touching::contacts());
     all
@@ -283,24 +282,6 @@ fn motors() -> Vec<ForceElement> {
         free_speed: Some(1.6),
         command: 0.8,
     }));
-    all
-}
-
-fn springs() -> Vec<ForceElement> {
-    let mut all = Vec::new();
-    let ties =
-        [(0.0, None), (0.9, None), (0.9, Some(Only::Tension)), (2.5, Some(Only::Compression))];
-    for (free_length, only) in ties {
-        all.push(ForceElement::SpringDamper(SpringDamper {
-            i: on(1, 0.3, -0.7),
-            j: on(2, -1.1, 0.4),
-            stiffness: 2.5,
-            damping: 0.7,
-            free_length,
-            preload: 0.3,
-            only,
-        }));
-    }
     all
 }
 

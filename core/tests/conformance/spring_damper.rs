@@ -1,9 +1,9 @@
 //! The translational spring-damper where its points meet, and its energy.
 
 use crate::mechanisms::{close, every, model, run, start, tolerances};
-use crate::samples::motion;
+use crate::samples::{motion, on};
 use kempe::elements::forces::SpringDamper;
-use kempe::elements::{BodyId, Element, Force, Held, Mode, PointOn, Situation};
+use kempe::elements::{BodyId, Element, Force, ForceElement, Held, Mode, Only, PointOn, Situation};
 use kempe::math::{Dual, Lift, Local, Motion, Real, Wrench};
 
 fn spring(free_length: f64) -> SpringDamper {
@@ -92,4 +92,23 @@ stiffness = 8
         let energy = &energies[5 * k..][..2];
         close("T + V", energy[0] + energy[1], 1.0, 1e-9);
     }
+}
+
+/// Samples with and without one sense.
+pub fn springs() -> Vec<ForceElement> {
+    let mut all = Vec::new();
+    let ties =
+        [(0.0, None), (0.9, None), (0.9, Some(Only::Tension)), (2.5, Some(Only::Compression))];
+    for (free_length, only) in ties {
+        all.push(ForceElement::SpringDamper(SpringDamper {
+            i: on(1, 0.3, -0.7),
+            j: on(2, -1.1, 0.4),
+            stiffness: 2.5,
+            damping: 0.7,
+            free_length,
+            preload: 0.3,
+            only,
+        }));
+    }
+    all
 }

@@ -333,6 +333,12 @@ class Dynamics(Analysis):
         singularity: Behaviour at a singular position where the motion does not determine its
             branch. "stop" ends the run with an error. "pass" continues, and rounding determines
             the branch.
+        impacts: Contacts and stops that act in an impact. "sequential": those that approach, in
+            rounds until none approaches. "simultaneous": all that are closed, in one
+            complementarity problem.
+        restitution_law: Restitution where contacts have friction or act simultaneously.
+            "poisson": the impulse of expansion over that of compression. "newton": the rate
+            after the impact over that before it; the run ends where this would gain energy.
         output: "steps" reports the steps of the solver, which is also the default without
             `output_step`.
         after: State at which the analysis starts: "start", or the name of an earlier analysis
@@ -369,6 +375,8 @@ class Dynamics(Analysis):
     dense_output: bool = True
     t_start: Number | None = None
     singularity: Literal["stop", "pass"] = "stop"
+    impacts: Literal["sequential", "simultaneous"] = "sequential"
+    restitution_law: Literal["poisson", "newton"] = "poisson"
     output: Literal["steps"] | None = None
     after: str | None = None
     events: Events | None = None
@@ -390,6 +398,8 @@ class Dynamics(Analysis):
         "dense_output": "flag",
         "t_start": "number",
         "singularity": ("stop", "pass"),
+        "impacts": ("sequential", "simultaneous"),
+        "restitution_law": ("poisson", "newton"),
         "output": ("steps",),
         "after": "name",
         "events": "events",

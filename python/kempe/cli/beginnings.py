@@ -89,7 +89,7 @@ def _first(pair: Any) -> list[Any]:
 
 def _number(value: Any) -> Any:
     """A text without names as a number: a formula may not contain ``"90 deg"``."""
-    from kempe.synthesis.tasks import value as number
+    from kempe.model.given import value as number
 
     try:
         return number(value, "range", "")

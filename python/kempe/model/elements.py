@@ -872,9 +872,11 @@ class Contact(Element):
     the point from the curve, positive on its `side`, minus `radius`. The depth is -gap. At a
     positive depth, the force stiffness × depth^exponent × (1 + damping × d depth/dt), if
     positive, pushes the bodies apart. It acts at the nearest point of the curve along the
-    normal. The friction force at this point is friction × normal force × tanh(v/velocity),
-    opposite to the tangential velocity v. With `restitution`, there is no friction: the bodies
-    separate with -restitution times the rate of their approach, or rest on each other.
+    normal. The friction force is friction × normal force, opposite to the tangential velocity
+    v. Where v is zero, the contact may stick, up to static × normal force. With `velocity`, the
+    friction force is friction × normal force × tanh(v/velocity), and never sticks. With
+    `restitution`, the bodies separate with -restitution times the rate of their approach, or
+    rest on each other.
 
     Attributes:
         i: Point of body i, as `body.point`.
@@ -886,8 +888,10 @@ class Contact(Element):
         exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
         damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
             [s/m].
-        friction: Coefficient of friction; a value above 0 requires `velocity`.
-        velocity: Tangential velocity at which the friction has 76 % of its full value [m/s].
+        friction: Coefficient of friction while the contact slides.
+        static: Coefficient of friction up to which the contact sticks; friction if absent.
+        velocity: Tangential velocity at which the friction has 76 % of its full value. Without
+            it, the contact may stick [m/s].
         restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
             `stiffness`.
         rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
@@ -901,6 +905,7 @@ class Contact(Element):
     exponent: Number = 1.5
     damping: Number = 0.0
     friction: Number = 0.0
+    static: Number | None = None
     velocity: Number | None = None
     restitution: Number | None = None
     rest_speed: Number = 1e-09
@@ -915,6 +920,7 @@ class Contact(Element):
         "exponent": "number",
         "damping": "number",
         "friction": "number",
+        "static": "number",
         "velocity": "number",
         "restitution": "number",
         "rest_speed": "number",
@@ -1649,6 +1655,7 @@ class ElementMethods:
         exponent: Number = 1.5,
         damping: Number = 0.0,
         friction: Number = 0.0,
+        static: Number | None = None,
         velocity: Number | None = None,
         restitution: Number | None = None,
         rest_speed: Number = 1e-09,
@@ -1659,9 +1666,11 @@ class ElementMethods:
         the point from the curve, positive on its `side`, minus `radius`. The depth is -gap. At a
         positive depth, the force stiffness × depth^exponent × (1 + damping × d depth/dt), if
         positive, pushes the bodies apart. It acts at the nearest point of the curve along the
-        normal. The friction force at this point is friction × normal force × tanh(v/velocity),
-        opposite to the tangential velocity v. With `restitution`, there is no friction: the bodies
-        separate with -restitution times the rate of their approach, or rest on each other.
+        normal. The friction force is friction × normal force, opposite to the tangential velocity
+        v. Where v is zero, the contact may stick, up to static × normal force. With `velocity`, the
+        friction force is friction × normal force × tanh(v/velocity), and never sticks. With
+        `restitution`, the bodies separate with -restitution times the rate of their approach, or
+        rest on each other.
 
         Args:
             name: its name in the model.
@@ -1674,8 +1683,10 @@ class ElementMethods:
             exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
             damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
                 [s/m].
-            friction: Coefficient of friction; a value above 0 requires `velocity`.
-            velocity: Tangential velocity at which the friction has 76 % of its full value [m/s].
+            friction: Coefficient of friction while the contact slides.
+            static: Coefficient of friction up to which the contact sticks; friction if absent.
+            velocity: Tangential velocity at which the friction has 76 % of its full value. Without
+                it, the contact may stick [m/s].
             restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
                 `stiffness`.
             rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
@@ -1691,6 +1702,7 @@ class ElementMethods:
                 exponent=exponent,
                 damping=damping,
                 friction=friction,
+                static=static,
                 velocity=velocity,
                 restitution=restitution,
                 rest_speed=rest_speed,

@@ -1,6 +1,7 @@
 //! Options from a file or from Python. The tables have already checked their structure; here the values are computed.
 
-use crate::analyses::readings::find;
+use crate::analyses::signal_names::signal;
+use crate::analyses::signal_units;
 use crate::equations::at;
 use crate::math::Listed;
 use crate::model::{Model, Problem, Reach, Scope, Value, ANY_UNIT};
@@ -99,7 +100,7 @@ impl<'a> Reader<'a> {
         let driven = named.and_then(|item| item.element.drives());
         let parameter = blueprint.parameters.iter().position(|known| known == name);
         let of_parameter = || blueprint.inferred[parameter?].unit();
-        let of_quantity = || find(model, name).ok().map(|found| found.unit);
+        let of_quantity = || Some(signal_units::unit_of(model, name, &signal(model, name)?));
         let found = driven.map(|of| of.kind().unit().to_string());
         found.or_else(of_parameter).or_else(of_quantity).unwrap_or(ANY_UNIT.to_string())
     }
