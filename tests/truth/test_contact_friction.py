@@ -259,3 +259,16 @@ def test_slopes_stop_at_an_impact_with_friction() -> None:
     found = kp.gradient(case, ["disc.x.final"], ["disc.vx"])
     assert np.isnan(found.jacobian).all()
     assert "impact with friction" in str(found.remarks)
+
+
+@pytest.mark.parametrize(("static", "moves"), [(0.5, 0.0), (0.3, 1.0)])
+def test_friction_may_act_at_rest_only(static: float, moves: float) -> None:
+    m = slope(1.0, np.radians(20))
+    m.body("block", mass=2, inertia=1, points={"A": (-1, -0.2), "B": (1, -0.2)})
+    for foot in "AB":
+        m.contact(foot, f"block.{foot}", "ground.floor", friction=0, static=static, restitution=0)
+    at = {"x": 0, "y": 0.2, "angle": 0, "vx": 0, "vy": 0, "omega": 0}
+    start = kp.assemble(m, set={f"block.{name}": x for name, x in at.items()})
+    sol = kp.dynamics(m, start, t_end=0.5)
+    fallen = -0.5 * G * np.sin(np.radians(20)) * moves
+    assert sol["block.vx"][-1] == pytest.approx(fallen, rel=1e-9, abs=1e-12)

@@ -227,7 +227,8 @@ impl Force for Contact {
     }
 
     fn companion(e: &Contact<Tape>) -> Option<ForceElement<Tape>> {
-        if !e.sticks() || e.friction.constant() == Some(0.0) {
+        let most = e.r#static.as_ref().unwrap_or(&e.friction);
+        if !e.sticks() || most.constant() == Some(0.0) {
             return None;
         }
         let (i, curve, radius, side) = (e.i.clone(), e.curve.clone(), e.radius.clone(), e.side);
