@@ -194,8 +194,10 @@ def test_coordinates_of_a_joint_are_columns_with_their_rates() -> None:
     }
     compiled = SimpleNamespace(
         bodies={},
+        named_bodies={},
         constraints=joints,
         forces={},
+        shown_forces={},
         measures={},
         row_names=lambda: ["pin.x"],
         state_names=lambda: ["motor.current"],

@@ -97,7 +97,7 @@ def _content(
     variables, interface = _variables(stepper, _listed("inputs", inputs), names)
     text = _text(whole)
     interface |= {"analysis": name}
-    token = hashlib.sha256(f"{text}{json.dumps(interface)}".encode()).hexdigest()
+    token = hashlib.sha256(f"{text}{json.dumps(interface, allow_nan=False)}".encode()).hexdigest()
     identifier = re.sub(r"\W", "_", stem, flags=re.ASCII)
     description = Description(
         case.model.title or stem,
@@ -110,7 +110,7 @@ def _content(
     return {
         "modelDescription.xml": description.xml(version),
         "resources/case.toml": text.encode(),
-        "resources/interface.json": json.dumps(interface, indent=1).encode(),
+        "resources/interface.json": json.dumps(interface, allow_nan=False).encode(),
         f"binaries/{folder(version)}/{description.identifier}{ending()}": library(),
         "documentation/licenses/license.txt": licences(),
     }

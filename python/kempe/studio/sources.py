@@ -23,6 +23,8 @@ INPUTS = (
     "core/src",
     "drawing/Cargo.toml",
     "drawing/src",
+    "synthesis/Cargo.toml",
+    "synthesis/src",
     "examples",
     "studio/build",
     "studio/index.html",
