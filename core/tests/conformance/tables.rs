@@ -50,6 +50,8 @@ fn quantities_have_units_that_exist_and_references_have_none() {
                 | Shape::LawPair
                 | Shape::Laws
                 | Shape::Points
+                | Shape::Ranges
+                | Shape::Section
                 | Shape::Corners => {
                     for unit in
                         field.unit.split(['|', ',']).filter(|u| !u.is_empty() && *u != "any")

@@ -42,7 +42,7 @@ const TOML: &[Row] = &[
     ("[bodies.a]\ntype = 'bra'\nmass = 1\n", 3, 8, "unknown type of body 'bra'", "mean 'bar'?"),
     ("[bodies.a]\ntype = 3\n", 3, 8, "bodies.a.type: a number; must be a text", ""),
     ("[bodies.a]\ntype = 'revolute'\n", 3, 8, "unknown type", "'revolute' belongs in [joints]"),
-    ("[bodies.a]\ntype = 'ground'\n", 3, 8, "unknown type of body 'ground'", "body, bar or point_mass"),
+    ("[bodies.a]\ntype = 'ground'\n", 3, 8, "unknown type of body 'ground'", "body, bar, point_mass or beam"),
     ("[bodies.a]\ninertia = 1\n", 2, 9, "bodies.a.mass: missing; body needs it", "Mass; 0 where the mechanism determines the motion (kg)"),
     ("[bodies.a]\nmas = 1\ninertia = 1\n", 3, 1, "unknown field 'mas' of body", "mean 'mass'?"),
     ("[bodies.a]\nmass = [1]\ninertia = 1\n", 3, 8, "a list; must be a number or a formula", ""),
