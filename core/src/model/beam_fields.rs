@@ -67,7 +67,7 @@ fn material() -> Vec<Field> {
 fn more() -> Vec<Field> {
     vec![
             number("damping", "s", "Damping in proportion to stiffness: efforts per rate of strain / stiffness."),
-            absent("elements", Shape::Count, "", "Number of elements of the third degree; chosen if absent."),
+            absent("elements", Shape::Count, "", "Number of elements of the third degree; 4 if absent, or 2 for each part between named points."),
             absent(
                 "points",
                 Shape::Terms,

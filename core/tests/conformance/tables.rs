@@ -52,6 +52,7 @@ fn quantities_have_units_that_exist_and_references_have_none() {
                 | Shape::Points
                 | Shape::Ranges
                 | Shape::Section
+                | Shape::Terms
                 | Shape::Corners => {
                     for unit in
                         field.unit.split(['|', ',']).filter(|u| !u.is_empty() && *u != "any")
