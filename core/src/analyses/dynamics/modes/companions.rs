@@ -30,6 +30,14 @@ pub(super) fn may_rub(
     }
 }
 
+/// The slack of the gap of a compliant contact whose friction does not act.
+pub(super) fn open_slack(model: &Model, place: &StateAt<'_>, force: usize) -> f64 {
+    contact_of(model, force).filter(|contact| !is_contact(model, *contact)).map_or(0.0, |contact| {
+        let gap = place.thresholds(model, &[contact])[0];
+        place.rounding(model, contact) + (-gap).max(0.0)
+    })
+}
+
 /// Whether a force may hold together with others. The friction of a rigid contact needs the contact at rest.
 pub(super) fn may_hold(model: &Model, force: usize, with: &[(usize, f64)]) -> bool {
     let rests = |contact: usize| with.iter().any(|(k, _)| *k == contact);

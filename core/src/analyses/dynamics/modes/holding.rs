@@ -51,7 +51,9 @@ pub(super) fn decide(
     let (mut modes, mut candidates) = (Vec::new(), Vec::new());
     for ((k, threshold), holders) in all.iter().zip(&thresholds).zip(&holders) {
         if !companions::may_rub(model, place, *k, (before, &rest, fired)) {
-            modes.push(ForceMode::new(*k, Mode::Free));
+            // the gap of a contact that has just separated may still be negative
+            let slack = companions::open_slack(model, place, *k);
+            modes.push(ForceMode { slack, ..ForceMode::new(*k, Mode::Free) });
             continue;
         }
         let (free, candidate) = match model.forces[*k].element.behaviour() {
@@ -113,7 +115,7 @@ fn give_slack(model: &Model, place: &StateAt<'_>, touching: &[usize], modes: &mu
             (Mode::Free, Some(at)) if rates[at] > SLOW * unit(model, own.force) => 0.0,
             // a gap that was held is not exactly zero
             (Mode::Free, Some(at)) => place.rounding(model, own.force) + (-gaps[at]).max(0.0),
-            (Mode::Holds(_) | Mode::Follows { .. }, _) => noise,
+            (Mode::Holds(_), _) => noise,
             _ => own.slack,
         };
     }
