@@ -88,9 +88,9 @@ pub(super) fn decide(
         own.held_by = at.map(|at| holders[at]).unwrap_or_default();
     }
     for (own, threshold) in modes.iter_mut().zip(&thresholds) {
-        if let (Mode::Slides(sign), true) = (own.mode, threshold.abs() <= STILL * speed) {
-            // a rounding error of the speed may have the opposite direction, and at rest the speed consists of
-            // rounding errors
+        let Mode::Slides(sign) = own.mode else { continue };
+        if sign * threshold <= STILL * speed {
+            // a speed that counts as zero may have the opposite direction, and at rest it consists of rounding errors
             own.slack = (-2.0 * sign * threshold).max(NOISE * speed);
         }
     }
