@@ -192,7 +192,10 @@ impl<'a> MotionOde<'a> {
             if self.is_undefined(t) {
                 return Ok(()); // a shorter step may avoid it
             }
-            if matches!(breakdown, Breakdown::Reaction(_)) || self.is_far(y) {
+            if matches!(breakdown, Breakdown::Reaction(_))
+                || self.is_far(y)
+                || self.is_beyond(t, breakdown)
+            {
                 self.paradox = Some((t, breakdown));
                 return Ok(());
             }
@@ -228,6 +231,17 @@ impl<'a> MotionOde<'a> {
         let mut jacobian = vec![0.0; self.model.layout.n_entries];
         constraints::jacobian(self.model, &self.workspace.motions, t, &mut jacobian);
         !all_finite(&jacobian)
+    }
+
+    /// Whether the equation that breaks down has no derivatives at a trial state: a place on a curve does not move
+    /// beyond the ends of the curve.
+    #[cold]
+    fn is_beyond(&self, t: f64, breakdown: Breakdown) -> bool {
+        let Breakdown::Row(of) = breakdown else { return false };
+        let layout = &self.model.layout;
+        let mut jacobian = vec![0.0; layout.n_entries];
+        constraints::jacobian(self.model, &self.workspace.motions, t, &mut jacobian);
+        layout.positions().all(|(row, _, at)| row != of || jacobian[at] == 0.0)
     }
 
     /// Stops where the accelerations are not unique. Rejects a trial state that is not finite, because a shorter step
