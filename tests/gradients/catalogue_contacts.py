@@ -83,4 +83,35 @@ def bouncing(of: Units) -> Made:
     return Made(m, [*measures, "touch.gap.final"], start, end=3.5, changes=True)
 
 
-CONTACTS: list[Maker] = [touching, rolling_over, bouncing]
+def loose_pin(of: Units) -> Made:
+    """A pendulum whose pin slides and rolls in its bush."""
+    s, v = of.size, of.size * of.rate
+    weight = of.mass * v * of.rate
+    m = of.model(
+        R=(0.3, s), gap=(0.05, s), k=(9000, weight / s), c=(0.2, 1 / v), mu=(0.1, 1), most=(0.2, 1)
+    )
+    m.ground.points(O=(0, 0))
+    of.disc(m, "disc", {"C": (0, 0.4 * s)}, center=(0.03 * s, 0.01 * s))
+    m.clearance(
+        "pin",
+        "ground.O",
+        "disc.C",
+        radius="R",
+        clearance="gap",
+        stiffness="k",
+        exponent=1,
+        damping="c",
+        friction="mu",
+        static="most",
+    )
+    start = {
+        "disc.x": of.near(0.02) * s,
+        "disc.y": -0.44 * s,
+        "disc.vx": 0.5 * v,
+        "disc.angle": 0.0,
+    }
+    measures = ["disc.x.final", "disc.omega.final", "energy.dissipated.final", "pin.gap.final"]
+    return Made(m, measures, start, end=2.0, changes=True)
+
+
+CONTACTS: list[Maker] = [touching, rolling_over, bouncing, loose_pin]

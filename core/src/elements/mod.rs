@@ -32,9 +32,11 @@ mod measure;
 mod measured;
 mod mode;
 mod nearest;
+mod part;
 mod plain_bearing;
 mod plane_curve;
 mod pool;
+mod pressing;
 mod quantity_kind;
 mod symbols;
 mod touch;
@@ -87,6 +89,7 @@ pub mod forces {
     mod actuator;
     mod beam_piece;
     mod bushing;
+    mod clearance_joint;
     mod clutch;
     mod contact;
     mod contact_friction;
@@ -103,13 +106,14 @@ pub mod forces {
     pub use actuator::Actuator;
     pub use beam_piece::BeamPiece;
     pub use bushing::Bushing;
+    pub use clearance_joint::ClearanceJoint;
     pub use clutch::Clutch;
     pub use contact::{Contact, Resting};
     pub use contact_friction::{ContactFriction, ContactSticking};
     pub use friction::Friction;
     pub use generalized_force::GeneralizedForce;
     pub use motor::Motor;
-    pub use play::Play;
+    pub use play::{Play, BACKLASH};
     pub use point_force::PointForce;
     pub use spring_damper::SpringDamper;
     pub use stop::Stop;
@@ -140,7 +144,7 @@ pub use field::{Default, Field, Shape, TOLERANCES, UNITS_OF_EQUATIONS};
 pub use followed::{Acted, BodyId, Coordinate, CoordinateOf, Followed, JointId, QuantityOf, PLACE};
 pub use foot::{rim, Rim};
 use force_dispatch::forces;
-pub use force_trait::{Force, Held, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
+pub use force_trait::{Force, Held, OwnPowers, OwnState, Situation, Wrenches};
 use forces::*;
 pub use group::Group;
 pub use joint_trait::{
@@ -155,6 +159,7 @@ pub use kinds::{
 };
 pub use measured::Measured;
 pub use mode::{Behaviour, Mode};
+pub use part::{Nature, Part};
 pub use plain_bearing::Bearing;
 pub use plane_curve::Curve;
 pub use pool::{Place, Pooled, VisitForces, VisitJoints};
@@ -204,6 +209,7 @@ forces! {
     Clutch,
     Stop,
     Contact,
+    ClearanceJoint,
     Play,
     ContactFriction,
     BeamPiece,

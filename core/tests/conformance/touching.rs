@@ -1,7 +1,9 @@
 //! Samples of stops and contacts.
 
 use crate::samples::{curve, on};
-use kempe::elements::forces::{Contact, ContactFriction, ContactSticking, Resting, Stop};
+use kempe::elements::forces::{
+    ClearanceJoint, Contact, ContactFriction, ContactSticking, Resting, Stop,
+};
 use kempe::elements::{
     BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, ForceElement, Rim, Side,
 };
@@ -49,7 +51,26 @@ pub fn contacts() -> Vec<ForceElement> {
         }
     }
     all.extend(rubbing_contacts());
+    all.extend([0.5, 4.0].map(pin_in_bush));
     all
+}
+
+/// A pin in a bush that touches at some of the random places.
+fn pin_in_bush(clearance: f64) -> ForceElement {
+    ForceElement::ClearanceJoint(ClearanceJoint {
+        i: on(1, 0.2, -0.4),
+        j: on(2, -0.3, 0.5),
+        radius: 5.0,
+        clearance,
+        stiffness: Some(1.0),
+        exponent: 1.5,
+        damping: 0.3,
+        friction: 0.2,
+        r#static: None,
+        velocity: Some(0.5),
+        restitution: None,
+        rest_speed: 1e-9,
+    })
 }
 
 /// The friction of contacts that slides and sticks.

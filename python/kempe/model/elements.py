@@ -446,6 +446,64 @@ class Constraint(Element):
 
 
 @dataclass(frozen=True)
+class Clearance(Element):
+    """An element of type ``clearance``.
+
+    A pin around the point of j in a bush around the point of i. The pin moves within the bush
+    and touches it where the distance of the points is `clearance`. It presses, rubs and hits as
+    a `contact`. With `restitution`, bush and pin are rigid; with `stiffness`, the depth is the
+    distance of the points minus `clearance`.
+
+    Attributes:
+        i: Centre of the bush, as `body.point`.
+        j: Centre of the pin, as `body.point`.
+        radius: Radius of the bush [m].
+        clearance: Radius of the bush minus radius of the pin [m].
+        stiffness: Force in N at a depth of 1 m, as a number without a unit; in N/m for an
+            exponent of 1 [any].
+        exponent: Exponent of the depth.
+        damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
+            [s/m].
+        friction: Coefficient of friction while the pin slides.
+        static: Coefficient of friction up to which the pin sticks; friction if absent.
+        velocity: Tangential velocity at which the friction has 76 % of its full value. Without
+            it, the pin may stick [m/s].
+        restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
+            `stiffness`.
+        rest_speed: With `restitution`: rate below which the pin rests on the bush [m/s].
+    """
+
+    i: str
+    j: str
+    radius: Number
+    clearance: Number
+    stiffness: Number | None = None
+    exponent: Number = 1.5
+    damping: Number = 0.0
+    friction: Number = 0.0
+    static: Number | None = None
+    velocity: Number | None = None
+    restitution: Number | None = None
+    rest_speed: Number = 1e-09
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "clearance"
+    value_kinds: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "j": "point",
+        "radius": "number",
+        "clearance": "number",
+        "stiffness": "number",
+        "exponent": "number",
+        "damping": "number",
+        "friction": "number",
+        "static": "number",
+        "velocity": "number",
+        "restitution": "number",
+        "rest_speed": "number",
+    }
+
+
+@dataclass(frozen=True)
 class CoordinateDriver(Element):
     """An element of type ``coordinate_driver``.
 
@@ -1264,6 +1322,67 @@ class ElementMethods:
             units: Unit of each formula, `m` or `rad`.
         """
         return self._add(Constraint(name, residual=residual, units=units))
+
+    def clearance(
+        self,
+        name: str,
+        i: str,
+        j: str,
+        *,
+        radius: Number,
+        clearance: Number,
+        stiffness: Number | None = None,
+        exponent: Number = 1.5,
+        damping: Number = 0.0,
+        friction: Number = 0.0,
+        static: Number | None = None,
+        velocity: Number | None = None,
+        restitution: Number | None = None,
+        rest_speed: Number = 1e-09,
+    ) -> Clearance:
+        """Add an element of type ``clearance`` and return it.
+
+        A pin around the point of j in a bush around the point of i. The pin moves within the bush
+        and touches it where the distance of the points is `clearance`. It presses, rubs and hits as
+        a `contact`. With `restitution`, bush and pin are rigid; with `stiffness`, the depth is the
+        distance of the points minus `clearance`.
+
+        Args:
+            name: its name in the model.
+            i: Centre of the bush, as `body.point`.
+            j: Centre of the pin, as `body.point`.
+            radius: Radius of the bush [m].
+            clearance: Radius of the bush minus radius of the pin [m].
+            stiffness: Force in N at a depth of 1 m, as a number without a unit; in N/m for an
+                exponent of 1 [any].
+            exponent: Exponent of the depth.
+            damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
+                [s/m].
+            friction: Coefficient of friction while the pin slides.
+            static: Coefficient of friction up to which the pin sticks; friction if absent.
+            velocity: Tangential velocity at which the friction has 76 % of its full value. Without
+                it, the pin may stick [m/s].
+            restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
+                `stiffness`.
+            rest_speed: With `restitution`: rate below which the pin rests on the bush [m/s].
+        """
+        return self._add(
+            Clearance(
+                name,
+                i=i,
+                j=j,
+                radius=radius,
+                clearance=clearance,
+                stiffness=stiffness,
+                exponent=exponent,
+                damping=damping,
+                friction=friction,
+                static=static,
+                velocity=velocity,
+                restitution=restitution,
+                rest_speed=rest_speed,
+            )
+        )
 
     def coordinate_driver(
         self,

@@ -59,7 +59,7 @@ fn undefined_at(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Option<LawFaul
     let forces = model.forces.iter().filter_map(|item| {
         let mut all = Vec::new();
         item.law.as_ref()?.map(&mut |tape| all.push(without(tape)));
-        Some((Group::Forces, item.element.kind(), item.element.scalars(), &item.name, all))
+        Some((item.element.group(), item.element.kind(), item.element.scalars(), &item.name, all))
     });
     constraints.chain(forces).find_map(|(group, kind, scalars, name, all)| {
         let (k, table) = all.into_iter().enumerate().find_map(|(k, found)| Some((k, found?)))?;

@@ -51,7 +51,7 @@ pub(super) fn decide(
     let (mut modes, mut candidates) = (Vec::new(), Vec::new());
     for ((k, threshold), holders) in all.iter().zip(&thresholds).zip(&holders) {
         if !companions::may_rub(model, place, *k, (before, &rest, fired)) {
-            modes.push(ForceMode::new(*k, Mode::Free));
+            modes.push(companions::apart(model, place, *k));
             continue;
         }
         let (free, candidate) = match model.forces[*k].element.behaviour() {

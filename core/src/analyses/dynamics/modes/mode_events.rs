@@ -105,7 +105,10 @@ impl ModeFunction {
 /// [`Behaviour::events`]. The modes are read from the model.
 pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction, Direction) {
     let item = &model.forces[force];
-    let own = model.blueprint.modes.iter().find(|of| of.force == force);
+    let of = |k: usize| model.blueprint.modes.iter().find(move |of| of.force == k);
+    // a compliant contact that is apart begins with the slack of its friction
+    let apart = item.partner.and_then(of).filter(|of| of.mode == Mode::Free);
+    let own = of(force).or(apart);
     let (slack, held_by) = own.map(|of| (of.slack, of.held_by)).unwrap_or_default();
     let threshold = |sign: f64| ModeFunction::Threshold { force, sign, slack, held_by };
     let (gap, falling) = (threshold(1.0), Direction::Falling);
