@@ -15,6 +15,7 @@ mod corner;
 mod curve_forms;
 mod curve_formula;
 mod curve_points;
+mod cylinders;
 mod declare;
 pub(crate) mod derive;
 mod dispatch;
@@ -153,9 +154,9 @@ pub use joint_trait::{
 use joints::*;
 pub use kinds::{
     acted, bearing, body, condition, coordinate, curve, equation_unit, flag, frame, joint, law,
-    law_pair, laws, number, optional_condition, optional_law, optional_number, optional_only,
-    optional_pair, optional_unit, pair, point, side, terms, triple, units, CurveOn, Frame, Kind,
-    Only, Optional, PointOn, Side, Source,
+    law_pair, laws, normal_law, number, optional_condition, optional_law, optional_number,
+    optional_only, optional_pair, optional_unit, pair, point, side, terms, triple, units, CurveOn,
+    Frame, Kind, NormalLaw, Only, Optional, PointOn, Side, Source,
 };
 pub use measured::Measured;
 pub use mode::{Behaviour, Mode};

@@ -6,12 +6,12 @@
 //! body i relative to body j. Without v₀, the friction slides and sticks; it is an element of its own, the companion of
 //! the contact. With a coefficient of restitution, there is no depth, and N is the multiplier of the contact at rest.
 
-use super::hertz::{self, Hertz, Normal, SWITCHES};
+use super::hertz::{Compliance, Hertz, Normal, SWITCHES};
 use super::touch::{CurveTouch, TouchPoint};
 use super::{
     At, Behaviour, BodyId, Clearance, Constraint, ContactFriction, Element, Force, ForceElement,
-    Group, Measured, Nature, Part, PointOn, Required, Resting, ResultQuantity, Rim, SceneSymbol,
-    Side, Situation, Wrenches,
+    Group, Measured, Nature, NormalLaw, Part, PointOn, Required, Resting, ResultQuantity, Rim,
+    SceneSymbol, Side, Situation, Wrenches,
 };
 use crate::expression::Tape;
 use crate::math::{Real, Vec2};
@@ -28,12 +28,10 @@ pub struct Pressing<'e, S: Clone> {
     pub radius: S,
     /// The side of the curve.
     pub side: Side,
-    /// k of a compliant contact.
-    pub stiffness: Option<S>,
-    /// n.
-    pub exponent: S,
-    /// c, s/m.
-    pub damping: S,
+    /// The law of a compliant contact.
+    pub law: NormalLaw,
+    /// Its coefficients.
+    pub compliance: Compliance<S>,
     /// μ while the contact slides.
     pub friction: S,
     /// μ up to which it sticks.
@@ -113,8 +111,7 @@ impl<S: Real> Pressing<'_, S> {
 
     /// The law of a compliant contact.
     fn law(&self) -> Option<Hertz<S>> {
-        let (exponent, damping) = (self.exponent, self.damping);
-        self.stiffness.map(|stiffness| Hertz { stiffness, exponent, damping })
+        self.compliance.law(self.touch().pitch())
     }
 
     /// The normal force; None if it is zero.
@@ -135,9 +132,9 @@ impl<S: Real> Pressing<'_, S> {
     /// Whether there is certainly no force, because the bodies were apart at the beginning of the step, or no equation
     /// holds them.
     fn is_free(&self, at: &Situation<'_, S>) -> bool {
-        match self.stiffness {
-            Some(_) => at.held.pieces.get(at.held.first).is_some_and(|piece| *piece < 0.0),
-            None => !at.mode.holds(),
+        match self.restitution {
+            None => at.held.pieces.get(at.held.first).is_some_and(|piece| *piece < 0.0),
+            Some(_) => !at.mode.holds(),
         }
     }
 
@@ -185,9 +182,12 @@ impl Pressing<'_, Tape> {
             curve: Rim::clone(&self.curve),
             radius: self.radius.clone(),
             side: self.side,
-            stiffness: self.stiffness.clone(),
-            exponent: self.exponent.clone(),
-            damping: self.damping.clone(),
+            stiffness: self.compliance.stiffness.clone(),
+            exponent: self.compliance.exponent.clone(),
+            damping: self.compliance.damping.clone(),
+            young: self.compliance.young.clone(),
+            poisson: self.compliance.poisson.clone(),
+            width: self.compliance.width.clone(),
             kinetic: self.friction.clone(),
             r#static: most.clone(),
         }))
@@ -220,8 +220,8 @@ impl Pressing<'_, f64> {
 
     /// A field of the normal force with an impossible value.
     fn fault_of_law(&self) -> Option<(&'static str, String)> {
-        let bounces = [self.restitution, Some(self.rest_speed)];
-        hertz::fault(self.stiffness, [self.exponent, 1.5], self.damping, bounces)
+        let apart = Some(self.touch().pitch()).filter(|_| self.radius != 0.0);
+        self.compliance.fault(self.law, apart, [self.restitution, Some(self.rest_speed)])
     }
 }
 
@@ -294,10 +294,14 @@ impl<E: Presses> Force for E {
     }
 
     fn behaviour<S: Real>(e: &E::Over<S>) -> Option<Behaviour<S>> {
-        let Pressing { stiffness, restitution, rest_speed, exponent, damping, .. } = E::pressing(e);
-        let compliant = |stiffness| Behaviour::Compliant { stiffness, exponent, damping };
+        let own = E::pressing(e);
+        let rest_speed = own.rest_speed;
         let impacts = |restitution| Behaviour::Impacts { restitution, rest_speed };
-        restitution.map(impacts).or(stiffness.map(compliant))
+        let compliant = |law: Hertz<S>| {
+            let [stiffness, exponent] = law.power();
+            Behaviour::Compliant { stiffness, exponent, damping: law.damping }
+        };
+        own.restitution.map(impacts).or_else(|| own.law().map(compliant))
     }
 
     fn threshold<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>) -> S {

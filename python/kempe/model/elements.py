@@ -464,6 +464,11 @@ class Clearance(Element):
         exponent: Exponent of the depth.
         damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
             [s/m].
+        law: Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders
+            that of Hertz with `young`, `poisson`, `width` and `damping`.
+        young: Modulus of elasticity of both cylinders [Pa].
+        poisson: Poisson's ratio of both cylinders.
+        width: Width of the cylinders [m].
         friction: Coefficient of friction while the pin slides.
         static: Coefficient of friction up to which the pin sticks; friction if absent.
         velocity: Tangential velocity at which the friction has 76 % of its full value. Without
@@ -480,6 +485,10 @@ class Clearance(Element):
     stiffness: Number | None = None
     exponent: Number = 1.5
     damping: Number = 0.0
+    law: Literal["hunt_crossley", "hertz", "lankarani_nikravesh", "flores"] = "hunt_crossley"
+    young: Number | None = None
+    poisson: Number | None = None
+    width: Number | None = None
     friction: Number = 0.0
     static: Number | None = None
     velocity: Number | None = None
@@ -495,6 +504,10 @@ class Clearance(Element):
         "stiffness": "number",
         "exponent": "number",
         "damping": "number",
+        "law": "word",
+        "young": "number",
+        "poisson": "number",
+        "width": "number",
         "friction": "number",
         "static": "number",
         "velocity": "number",
@@ -946,6 +959,11 @@ class Contact(Element):
         exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
         damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
             [s/m].
+        law: Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders
+            that of Hertz with `young`, `poisson`, `width` and `damping`.
+        young: Modulus of elasticity of both cylinders [Pa].
+        poisson: Poisson's ratio of both cylinders.
+        width: Width of the cylinders [m].
         friction: Coefficient of friction while the contact slides.
         static: Coefficient of friction up to which the contact sticks; friction if absent.
         velocity: Tangential velocity at which the friction has 76 % of its full value. Without
@@ -962,6 +980,10 @@ class Contact(Element):
     stiffness: Number | None = None
     exponent: Number = 1.5
     damping: Number = 0.0
+    law: Literal["hunt_crossley", "hertz", "lankarani_nikravesh", "flores"] = "hunt_crossley"
+    young: Number | None = None
+    poisson: Number | None = None
+    width: Number | None = None
     friction: Number = 0.0
     static: Number | None = None
     velocity: Number | None = None
@@ -977,6 +999,10 @@ class Contact(Element):
         "stiffness": "number",
         "exponent": "number",
         "damping": "number",
+        "law": "word",
+        "young": "number",
+        "poisson": "number",
+        "width": "number",
         "friction": "number",
         "static": "number",
         "velocity": "number",
@@ -1334,6 +1360,10 @@ class ElementMethods:
         stiffness: Number | None = None,
         exponent: Number = 1.5,
         damping: Number = 0.0,
+        law: Literal["hunt_crossley", "hertz", "lankarani_nikravesh", "flores"] = "hunt_crossley",
+        young: Number | None = None,
+        poisson: Number | None = None,
+        width: Number | None = None,
         friction: Number = 0.0,
         static: Number | None = None,
         velocity: Number | None = None,
@@ -1358,6 +1388,11 @@ class ElementMethods:
             exponent: Exponent of the depth.
             damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
                 [s/m].
+            law: Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders
+                that of Hertz with `young`, `poisson`, `width` and `damping`.
+            young: Modulus of elasticity of both cylinders [Pa].
+            poisson: Poisson's ratio of both cylinders.
+            width: Width of the cylinders [m].
             friction: Coefficient of friction while the pin slides.
             static: Coefficient of friction up to which the pin sticks; friction if absent.
             velocity: Tangential velocity at which the friction has 76 % of its full value. Without
@@ -1376,6 +1411,10 @@ class ElementMethods:
                 stiffness=stiffness,
                 exponent=exponent,
                 damping=damping,
+                law=law,
+                young=young,
+                poisson=poisson,
+                width=width,
                 friction=friction,
                 static=static,
                 velocity=velocity,
@@ -1773,6 +1812,10 @@ class ElementMethods:
         stiffness: Number | None = None,
         exponent: Number = 1.5,
         damping: Number = 0.0,
+        law: Literal["hunt_crossley", "hertz", "lankarani_nikravesh", "flores"] = "hunt_crossley",
+        young: Number | None = None,
+        poisson: Number | None = None,
+        width: Number | None = None,
         friction: Number = 0.0,
         static: Number | None = None,
         velocity: Number | None = None,
@@ -1802,6 +1845,11 @@ class ElementMethods:
             exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
             damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
                 [s/m].
+            law: Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders
+                that of Hertz with `young`, `poisson`, `width` and `damping`.
+            young: Modulus of elasticity of both cylinders [Pa].
+            poisson: Poisson's ratio of both cylinders.
+            width: Width of the cylinders [m].
             friction: Coefficient of friction while the contact slides.
             static: Coefficient of friction up to which the contact sticks; friction if absent.
             velocity: Tangential velocity at which the friction has 76 % of its full value. Without
@@ -1820,6 +1868,10 @@ class ElementMethods:
                 stiffness=stiffness,
                 exponent=exponent,
                 damping=damping,
+                law=law,
+                young=young,
+                poisson=poisson,
+                width=width,
                 friction=friction,
                 static=static,
                 velocity=velocity,

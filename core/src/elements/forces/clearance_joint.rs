@@ -7,6 +7,7 @@
 //! body at the right. A circle with a negative radius touches with its farthest point in place of its nearest one; all
 //! equations of two circles hold. The growing u then runs clockwise about the pin.
 
+use crate::elements::hertz::Compliance;
 use crate::elements::pressing::{Amount, Presses, Pressing};
 use crate::elements::{
     element, At, BodyId, Clearance, Curve, CurveOn, Group, Mark, Required, Rim, SceneSymbol, Side,
@@ -34,6 +35,15 @@ element! {
         exponent: number = 1.5,
         /// Damping factor: the force is multiplied by 1 + damping × rate of the depth.
         damping: number [s/m] = 0.0,
+        /// Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders that of Hertz with
+        /// `young`, `poisson`, `width` and `damping`.
+        law: normal_law = "hunt_crossley",
+        /// Modulus of elasticity of both cylinders.
+        young: optional_number [Pa],
+        /// Poisson's ratio of both cylinders.
+        poisson: optional_number,
+        /// Width of the cylinders.
+        width: optional_number [m],
         /// Coefficient of friction while the pin slides.
         friction: number = 0.0,
         /// Coefficient of friction up to which the pin sticks; friction if absent.
@@ -59,9 +69,15 @@ impl Presses for ClearanceJoint {
             curve: Cow::Owned(Rim::new(curve)),
             radius: -e.radius.clone(),
             side: Side::Left,
-            stiffness: e.stiffness.clone(),
-            exponent: e.exponent.clone(),
-            damping: e.damping.clone(),
+            law: e.law,
+            compliance: Compliance {
+                stiffness: e.stiffness.clone(),
+                exponent: e.exponent.clone(),
+                damping: e.damping.clone(),
+                young: e.young.clone(),
+                poisson: e.poisson.clone(),
+                width: e.width.clone(),
+            },
             friction: e.friction.clone(),
             r#static: e.r#static.clone(),
             velocity: e.velocity.clone(),
@@ -79,7 +95,7 @@ impl Presses for ClearanceJoint {
     }
 
     fn is_compliant<S>(e: &ClearanceJoint<S>) -> bool {
-        e.stiffness.is_some()
+        e.restitution.is_none()
     }
 
     fn clearance(e: &ClearanceJoint) -> Clearance<'_> {

@@ -8,6 +8,7 @@
 //!
 //! An open curve ends with corners. The material of the body is on the other side of the curve.
 
+use crate::elements::hertz::Compliance;
 use crate::elements::pressing::{Amount, Presses, Pressing};
 use crate::elements::touch::CurveTouch;
 use crate::elements::{
@@ -41,6 +42,15 @@ element! {
         exponent: number = 1.5,
         /// Damping factor: the force is multiplied by 1 + damping × rate of the depth.
         damping: number [s/m] = 0.0,
+        /// Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders that of Hertz with
+        /// `young`, `poisson`, `width` and `damping`.
+        law: normal_law = "hunt_crossley",
+        /// Modulus of elasticity of both cylinders.
+        young: optional_number [Pa],
+        /// Poisson's ratio of both cylinders.
+        poisson: optional_number,
+        /// Width of the cylinders.
+        width: optional_number [m],
         /// Coefficient of friction while the contact slides.
         friction: number = 0.0,
         /// Coefficient of friction up to which the contact sticks; friction if absent.
@@ -78,9 +88,15 @@ impl Presses for Contact {
             curve: Cow::Borrowed(&e.curve),
             radius: e.radius.clone(),
             side: e.side,
-            stiffness: e.stiffness.clone(),
-            exponent: e.exponent.clone(),
-            damping: e.damping.clone(),
+            law: e.law,
+            compliance: Compliance {
+                stiffness: e.stiffness.clone(),
+                exponent: e.exponent.clone(),
+                damping: e.damping.clone(),
+                young: e.young.clone(),
+                poisson: e.poisson.clone(),
+                width: e.width.clone(),
+            },
             friction: e.friction.clone(),
             r#static: e.r#static.clone(),
             velocity: e.velocity.clone(),
@@ -98,7 +114,7 @@ impl Presses for Contact {
     }
 
     fn is_compliant<S>(e: &Contact<S>) -> bool {
-        e.stiffness.is_some()
+        e.restitution.is_none()
     }
 
     fn clearance(e: &Contact) -> Clearance<'_> {
