@@ -1,10 +1,12 @@
 """Pins in bushes against closed forms and motions of the tests' own."""
 
+from pathlib import Path
 from typing import Any
 
 import kempe as kp
 import numpy as np
 import pytest
+from command_line import kempe
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.special import ellipk
@@ -130,6 +132,30 @@ def test_a_shaft_runs_down_at_the_angle_of_friction(
     assert_allclose(np.abs(sol["B.tangential"]), mass * g * np.abs(np.sin(phi)), rtol=1e-8)
     heat = 0.5 * 0.7 * mass * radius**2 * rate**2 * 0.75
     assert_allclose(sol["B.dissipated"][-1], heat, rtol=1e-7)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_a_shaft_wears_its_bush(scale: tuple[float, float, float]) -> None:
+    mass, radius, g = scale
+    mu, length, k = 0.3, PART * radius, 2e-13
+    depth = 1e-2 * length
+    load = mass * g / np.sqrt(1 + mu**2)
+    law = {"stiffness": load / depth, "exponent": 1, "friction": mu, "wear": k}
+    m = hanging(scale, **law)
+    place = -(length + depth) * np.array([mu, 1]) / np.sqrt(1 + mu**2)
+    rate = 10 * np.sqrt(g / radius)
+    start = kp.assemble(m, at(scale, *place) | {"disc.omega": rate})
+    fine = kp.DOP853(rtol=1e-9, atol=1e-15)
+    sol = kp.dynamics(m, start, t_end=4 * np.sqrt(radius / g), method=fine)
+    # friction takes the energy μ N s
+    lost = 0.5 * 0.7 * mass * radius**2 * (rate**2 - sol["disc.omega"][-1] ** 2)
+    assert lost > 0.1 * 0.35 * mass * radius**2 * rate**2
+    assert_allclose(sol["B.sliding_distance"][-1], lost / (mu * load), rtol=1e-7)
+    assert_allclose(sol["B.wear_volume"][-1], k * lost / mu, rtol=1e-7)
+    assert sol["B.sliding_distance"][0] == 0
+    m = hanging(scale, restitution=0.5, friction=mu, wear=k)
+    with pytest.raises(kp.ModelError, match="wear: the load of a contact with restitution"):
+        kp.assemble(m)
 
 
 def impacts(
@@ -325,3 +351,12 @@ def test_a_stiff_pin_with_friction_rattles(scale: tuple[float, float, float]) ->
     assert len(sol.events["B.release"].t) > 3
     assert np.abs(sol.energy.balance).max() < 1e-4 * mass * g * radius
     assert (np.abs(sol["B.tangential"]) <= 0.1001 * sol["B.force"] + 1e-6 * mass * g).all()
+
+
+def test_a_case_without_equations_shows_an_empty_jacobian(tmp_path: Path) -> None:
+    m = hanging(SCALES[0], stiffness=1e9)
+    path = tmp_path / "pin.toml"
+    kp.Case(m, {"set": {"disc.x": 0.006, "disc.y": -0.0045, "disc.angle": 0}}).save(path)
+    assert "0 × 3" in kempe("show", path).stdout
+    # the file keeps the joint in its section
+    assert kp.load(path).model.tree["joints"]["B"]["type"] == "clearance"

@@ -14,6 +14,7 @@ def touching(of: Units) -> Made:
         mu=(0.3, 1),
         v0=(0.05, v),
         a=(0.2, 1 / s),
+        w=(0.1, s**2 / of.force),
     )
     m.ground.curves(floor={"x": "u", "y": "a * u^2", "range": [-5 * s, 5 * s]})
     of.disc(m, "ball", {"C": (0, 0)}, center=(0.03 * s, 0.01 * s))
@@ -28,9 +29,11 @@ def touching(of: Units) -> Made:
         damping="c",
         friction="mu",
         velocity="v0",
+        wear="w",
     )
     start = {"ball.x": of.near(0.6) * s, "ball.y": s, "ball.vx": 0.5 * v, "ball.angle": 0.0}
     measures = ["ball.x.final", "ball.y.final", "ball.omega.final", "touch.force.max"]
+    measures += ["touch.wear_volume.final"]
     return Made(
         m, [*measures, "energy.dissipated.final", "touch.gap.final"], start, end=2.5, changes=True
     )

@@ -10,8 +10,8 @@ use super::hertz::{Compliance, Hertz, Normal, SWITCHES};
 use super::touch::{CurveTouch, TouchPoint};
 use super::{
     At, Behaviour, BodyId, Clearance, Constraint, ContactFriction, Element, Force, ForceElement,
-    Group, Measured, Nature, NormalLaw, Part, PointOn, Required, Resting, ResultQuantity, Rim,
-    SceneSymbol, Side, Situation, Wrenches,
+    Group, Measured, Nature, NormalLaw, OwnState, Part, PointOn, Required, Resting, ResultQuantity,
+    Rim, SceneSymbol, Side, Situation, Wrenches,
 };
 use crate::expression::Tape;
 use crate::math::{Real, Vec2};
@@ -42,6 +42,8 @@ pub struct Pressing<'e, S: Clone> {
     pub restitution: Option<S>,
     /// Rate below which a rigid contact rests, m/s.
     pub rest_speed: S,
+    /// Worn volume for each newton and metre, m²/N.
+    pub wear: S,
 }
 
 /// A number of a model, or its formula.
@@ -160,6 +162,15 @@ impl<S: Real> Pressing<'_, S> {
         }
     }
 
+    /// The rates of the length of sliding and of the worn volume (Archard, *Contact and rubbing of flat surfaces*, J. Appl.
+    /// Phys. 24 (1953) 981).
+    fn wearing(&self, at: &Situation<'_, S>) -> [S; 2] {
+        let touch = self.point(at);
+        let Some(normal) = self.normal(at, &touch) else { return [S::zero(); 2] };
+        let speed = at.choose(0, -touch.gap, touch.sliding.abs(), S::zero());
+        [speed, self.wear * normal.sum() * speed]
+    }
+
     fn results(&self, at: &Situation<'_, S>, out: &mut [S]) {
         out.fill(S::zero());
         let touch = self.point(at);
@@ -200,6 +211,12 @@ impl Pressing<'_, f64> {
         let refuse = |field, message: &str| Some((field, message.to_string()));
         let most = self.r#static.unwrap_or(self.friction);
         match self.velocity {
+            _ if self.wear < 0.0 => refuse("wear", "must not be negative"),
+            _ if self.wear > 0.0 && self.restitution.is_some() => {
+                let message = "the load of a contact with restitution is known after the motion only; give stiffness, or \
+                               law = \"hertz\", in its place";
+                refuse("wear", message)
+            }
             _ if self.friction < 0.0 => refuse("friction", "must not be negative"),
             _ if most < self.friction => refuse("static", "must not be below friction"),
             None if most > 0.0 && !self.curve.is_closed_form() => {
@@ -253,6 +270,22 @@ impl<E: Presses> Force for E {
 
     fn action<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         E::pressing(e).put(at, &mut out);
+    }
+
+    fn states(given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
+        match given("wear") {
+            true => &[
+                OwnState { name: "sliding_distance", unit: "m" },
+                OwnState { name: "wear_volume", unit: "m^3" },
+            ],
+            false => &[],
+        }
+    }
+
+    fn state_rates<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
+        if !out.is_empty() {
+            out.copy_from_slice(&E::pressing(e).wearing(at));
+        }
     }
 
     fn switch_count<S>(e: &E::Over<S>) -> usize {

@@ -52,6 +52,7 @@ pub fn contacts() -> Vec<ForceElement> {
                 velocity: Some(0.5),
                 restitution: None,
                 rest_speed: 1e-9,
+                wear: 0.4,
             }));
         }
     }
@@ -80,6 +81,7 @@ fn pin_in_bush((clearance, of_cylinders): (f64, bool)) -> ForceElement {
         velocity: Some(0.5),
         restitution: None,
         rest_speed: 1e-9,
+        wear: 0.4,
     })
 }
 

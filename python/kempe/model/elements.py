@@ -476,6 +476,8 @@ class Clearance(Element):
         restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
             `stiffness`.
         rest_speed: With `restitution`: rate below which the pin rests on the bush [m/s].
+        wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
+            contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
     """
 
     i: str
@@ -494,6 +496,7 @@ class Clearance(Element):
     velocity: Number | None = None
     restitution: Number | None = None
     rest_speed: Number = 1e-09
+    wear: Number = 0.0
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "clearance"
     value_kinds: ClassVar[Mapping[str, str]] = {
@@ -513,6 +516,7 @@ class Clearance(Element):
         "velocity": "number",
         "restitution": "number",
         "rest_speed": "number",
+        "wear": "number",
     }
 
 
@@ -971,6 +975,8 @@ class Contact(Element):
         restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
             `stiffness`.
         rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
+        wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
+            contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
     """
 
     i: str
@@ -989,6 +995,7 @@ class Contact(Element):
     velocity: Number | None = None
     restitution: Number | None = None
     rest_speed: Number = 1e-09
+    wear: Number = 0.0
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "contact"
     value_kinds: ClassVar[Mapping[str, str]] = {
@@ -1008,6 +1015,7 @@ class Contact(Element):
         "velocity": "number",
         "restitution": "number",
         "rest_speed": "number",
+        "wear": "number",
     }
 
 
@@ -1369,6 +1377,7 @@ class ElementMethods:
         velocity: Number | None = None,
         restitution: Number | None = None,
         rest_speed: Number = 1e-09,
+        wear: Number = 0.0,
     ) -> Clearance:
         """Add an element of type ``clearance`` and return it.
 
@@ -1400,6 +1409,8 @@ class ElementMethods:
             restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
                 `stiffness`.
             rest_speed: With `restitution`: rate below which the pin rests on the bush [m/s].
+            wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
+                contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
         """
         return self._add(
             Clearance(
@@ -1420,6 +1431,7 @@ class ElementMethods:
                 velocity=velocity,
                 restitution=restitution,
                 rest_speed=rest_speed,
+                wear=wear,
             )
         )
 
@@ -1821,6 +1833,7 @@ class ElementMethods:
         velocity: Number | None = None,
         restitution: Number | None = None,
         rest_speed: Number = 1e-09,
+        wear: Number = 0.0,
     ) -> Contact:
         """Add an element of type ``contact`` and return it.
 
@@ -1857,6 +1870,8 @@ class ElementMethods:
             restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
                 `stiffness`.
             rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
+            wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
+                contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
         """
         return self._add(
             Contact(
@@ -1877,5 +1892,6 @@ class ElementMethods:
                 velocity=velocity,
                 restitution=restitution,
                 rest_speed=rest_speed,
+                wear=wear,
             )
         )

@@ -62,6 +62,9 @@ element! {
         restitution: optional_number,
         /// With `restitution`: rate below which the bodies rest on each other.
         rest_speed: number [m/s] = 1e-9,
+        /// Worn volume for each newton and each metre of sliding (Archard); for compliant contacts. The
+        /// states sliding_distance and wear_volume then begin at 0.
+        wear: number [m^2/N] = 0.0,
     }
 }
 
@@ -102,6 +105,7 @@ impl Presses for Contact {
             velocity: e.velocity.clone(),
             restitution: e.restitution.clone(),
             rest_speed: e.rest_speed.clone(),
+            wear: e.wear.clone(),
         }
     }
 
