@@ -15,7 +15,7 @@ use kempe::elements::test_elements::{
 use kempe::elements::QuantityKind;
 use kempe::elements::{
     catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveFormula, CurveOn,
-    CurvePoints, ForceElement, Frame, Group, JointId, Linearized, Moving, PointOn, Side,
+    CurvePoints, ForceElement, Frame, JointId, Linearized, Moving, PointOn, Side,
 };
 use kempe::expression::{Expression, FormulaValues, Names, Symbol, Tape};
 use kempe::math::{Interpolation, Local, Motion, Pose, Real, Twist, Vec2};
