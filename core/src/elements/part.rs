@@ -9,7 +9,7 @@ pub enum Nature {
     Dissipative,
     /// Work from outside.
     Applied,
-    /// An exchange between the bodies and the states of the element. The [own powers](Force::own_powers) of the
+    /// An exchange between the bodies and the states of the element. The [own powers](super::Force::own_powers) of the
     /// element are counted instead.
     Exchanged,
 }
