@@ -124,7 +124,8 @@ def logarithmic(rng):
     return 10.0 ** rng.uniform(-3, 3)
 
 
-@pytest.mark.parametrize("seed", range(10))
+# the last three contain planets with two wheels that mesh in thousands of places around the centre
+@pytest.mark.parametrize("seed", [*range(10), 16, 36, 38])
 def test_planets_close_if_and_only_if_their_teeth_meet(seed):
     rng = np.random.default_rng([1, seed])
     seen = set()

@@ -1,11 +1,8 @@
 //! The functions of FMI 2.0 for co-simulation (Modelica Association, Functional Mock-up Interface 2.0.5, chapters 2 and 4).
 #![allow(unsafe_code, non_snake_case)]
 
-use crate::component::{caught, Component, Log, Status};
-use crate::instance::Instance;
-use crate::location::folder;
-use crate::pointers::{self, behind, text, with, write};
-use crate::processor;
+use crate::component::{Log, Status};
+use crate::pointers::{self, behind, passed_on, text, with, write};
 use std::ffi::{c_char, c_int, c_uint, c_void, CString};
 use std::ptr::null_mut;
 
@@ -74,21 +71,10 @@ pub unsafe extern "C" fn fmi2Instantiate(
     let (logger, environment) = functions.map_or((None, null_mut()), |f| (f.logger, f.environment));
     // SAFETY: see above
     let log = log(unsafe { text(name) }.unwrap_or_default(), logger, environment);
-    let (made, _) = caught(|| {
-        processor::check()?;
-        if kind != CO_SIMULATION {
-            return Err("model exchange is not supported, only co-simulation".to_string());
-        }
-        // SAFETY: see above
-        unsafe { Instance::new(text(token)?, &folder(text(resources)?)?) }
-    });
-    match made {
-        Ok(instance) => pointers::give(Component::new(instance, log)),
-        Err(message) => {
-            log(Status::Error, &message);
-            null_mut()
-        }
-    }
+    let refusal =
+        (kind != CO_SIMULATION).then_some("model exchange is not supported, only co-simulation");
+    // SAFETY: see above
+    unsafe { pointers::instantiated(token, resources, refusal, log) }
 }
 
 /// `fmi2FreeInstance`.
@@ -130,148 +116,19 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
     unsafe { with(component, |own| own.instance.set_up(tolerance, start).map(|()| Status::Ok)) }
 }
 
-/// `fmi2EnterInitializationMode`.
-///
-/// # Safety
-/// See [`fmi2Instantiate`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi2EnterInitializationMode(component: *mut c_void) -> c_int {
-    // SAFETY: see above
-    unsafe { with(component, |own| own.instance.enter_initialization().map(|()| Status::Ok)) }
-}
-
-/// `fmi2ExitInitializationMode`.
-///
-/// # Safety
-/// See [`fmi2Instantiate`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi2ExitInitializationMode(component: *mut c_void) -> c_int {
-    // SAFETY: see above
-    unsafe { with(component, |own| own.instance.exit_initialization().map(|()| Status::Ok)) }
-}
-
-/// `fmi2Terminate`.
-///
-/// # Safety
-/// See [`fmi2Instantiate`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi2Terminate(component: *mut c_void) -> c_int {
-    // SAFETY: see above
-    unsafe { with(component, |own| own.instance.terminate().map(|()| Status::Ok)) }
-}
-
-/// `fmi2Reset`.
-///
-/// # Safety
-/// See [`fmi2Instantiate`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi2Reset(component: *mut c_void) -> c_int {
-    // SAFETY: see above
-    unsafe { behind(component) }.map_or(Status::Error, Component::reset) as c_int
-}
-
-/// `fmi2GetReal`.
-///
-/// # Safety
-/// See [`fmi2Instantiate`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi2GetReal(
-    component: *mut c_void,
-    references: *const c_uint,
-    count: usize,
-    values: *mut f64,
-) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::get(component, references, count, values) }
-}
-
-/// `fmi2SetReal`.
-///
-/// # Safety
-/// See [`fmi2Instantiate`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi2SetReal(
-    component: *mut c_void,
-    references: *const c_uint,
-    count: usize,
-    values: *const f64,
-) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::set(component, references, count, values) }
-}
-
-/// `fmi2GetFMUstate`.
-///
-/// # Safety
-/// See [`fmi2Instantiate`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi2GetFMUstate(component: *mut c_void, to: *mut *mut c_void) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::get_state(component, to) }
-}
-
-/// `fmi2SetFMUstate`.
-///
-/// # Safety
-/// See [`fmi2Instantiate`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi2SetFMUstate(component: *mut c_void, state: *mut c_void) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::set_state(component, state) }
-}
-
-/// `fmi2FreeFMUstate`.
-///
-/// # Safety
-/// See [`fmi2Instantiate`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi2FreeFMUstate(component: *mut c_void, of: *mut *mut c_void) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::free_state(component, of) }
-}
-
-/// `fmi2SerializedFMUstateSize`.
-///
-/// # Safety
-/// See [`fmi2Instantiate`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
-    component: *mut c_void,
-    state: *mut c_void,
-    size: *mut usize,
-) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::state_size(component, state, size) }
-}
-
-/// `fmi2SerializeFMUstate`.
-///
-/// # Safety
-/// See [`fmi2Instantiate`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi2SerializeFMUstate(
-    component: *mut c_void,
-    state: *mut c_void,
-    to: *mut u8,
-    size: usize,
-) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::write_state(component, state, to, size) }
-}
-
-/// `fmi2DeSerializeFMUstate`.
-///
-/// # Safety
-/// See [`fmi2Instantiate`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
-    component: *mut c_void,
-    from: *const u8,
-    size: usize,
-    to: *mut *mut c_void,
-) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::read_state(component, from, size, to) }
+passed_on! {
+    fmi2EnterInitializationMode() = enter_initialization;
+    fmi2GetReal(references: *const c_uint, count: usize, values: *mut f64) = get;
+    fmi2SetReal(references: *const c_uint, count: usize, values: *const f64) = set;
+    fmi2ExitInitializationMode() = exit_initialization;
+    fmi2Terminate() = terminate;
+    fmi2Reset() = reset;
+    fmi2GetFMUstate(to: *mut *mut c_void) = get_state;
+    fmi2SetFMUstate(state: *mut c_void) = set_state;
+    fmi2FreeFMUstate(state: *mut *mut c_void) = free_state;
+    fmi2SerializedFMUstateSize(state: *mut c_void, size: *mut usize) = state_size;
+    fmi2SerializeFMUstate(state: *mut c_void, to: *mut u8, size: usize) = write_state;
+    fmi2DeSerializeFMUstate(from: *const u8, size: usize, to: *mut *mut c_void) = read_state;
 }
 
 /// `fmi2DoStep`. Discards the rest of a step in which an event stops the run.

@@ -1,11 +1,8 @@
 //! The functions of FMI 3.0 for co-simulation (Modelica Association, Functional Mock-up Interface 3.0.2, chapters 2 and 4).
 #![allow(unsafe_code, non_snake_case)]
 
-use crate::component::{caught, Component, Log, Status};
-use crate::instance::Instance;
-use crate::location::folder;
-use crate::pointers::{self, behind, text, with, write};
-use crate::processor;
+use crate::component::{Log, Status};
+use crate::pointers::{self, behind, passed_on, with, write};
 use std::ffi::{c_char, c_int, c_void, CString};
 use std::ptr::null_mut;
 
@@ -100,24 +97,13 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     _update: *const c_void,
 ) -> *mut c_void {
     let log = log(logger, environment);
-    let (made, _) = caught(|| {
-        processor::check()?;
-        if event_mode {
-            return Err("there is no event mode".to_string());
-        }
-        if count > 0 {
-            return Err("there are no intermediate variables".to_string());
-        }
-        // SAFETY: see above
-        unsafe { Instance::new(text(token)?, &folder(text(resources)?)?) }
-    });
-    match made {
-        Ok(instance) => pointers::give(Component::new(instance, log)),
-        Err(message) => {
-            log(Status::Error, &message);
-            null_mut()
-        }
-    }
+    let refusal = match (event_mode, count) {
+        (true, _) => Some("there is no event mode"),
+        (false, 1..) => Some("there are no intermediate variables"),
+        (false, 0) => None,
+    };
+    // SAFETY: see above
+    unsafe { pointers::instantiated(token, resources, refusal, log) }
 }
 
 /// `fmi3FreeInstance`.
@@ -151,36 +137,6 @@ pub unsafe extern "C" fn fmi3EnterInitializationMode(
             own.instance.enter_initialization().map(|()| Status::Ok)
         })
     }
-}
-
-/// `fmi3ExitInitializationMode`.
-///
-/// # Safety
-/// See [`fmi3InstantiateModelExchange`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi3ExitInitializationMode(instance: *mut c_void) -> c_int {
-    // SAFETY: see above
-    unsafe { with(instance, |own| own.instance.exit_initialization().map(|()| Status::Ok)) }
-}
-
-/// `fmi3Terminate`.
-///
-/// # Safety
-/// See [`fmi3InstantiateModelExchange`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi3Terminate(instance: *mut c_void) -> c_int {
-    // SAFETY: see above
-    unsafe { with(instance, |own| own.instance.terminate().map(|()| Status::Ok)) }
-}
-
-/// `fmi3Reset`.
-///
-/// # Safety
-/// See [`fmi3InstantiateModelExchange`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi3Reset(instance: *mut c_void) -> c_int {
-    // SAFETY: see above
-    unsafe { behind(instance) }.map_or(Status::Error, Component::reset) as c_int
 }
 
 /// `fmi3GetFloat64`. All variables are scalars.
@@ -229,78 +185,16 @@ fn lengths(count: usize, n_values: usize) -> String {
     format!("{count} value references, {n_values} values; all variables are scalars")
 }
 
-/// `fmi3GetFMUState`.
-///
-/// # Safety
-/// See [`fmi3InstantiateModelExchange`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi3GetFMUState(instance: *mut c_void, to: *mut *mut c_void) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::get_state(instance, to) }
-}
-
-/// `fmi3SetFMUState`.
-///
-/// # Safety
-/// See [`fmi3InstantiateModelExchange`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi3SetFMUState(instance: *mut c_void, state: *mut c_void) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::set_state(instance, state) }
-}
-
-/// `fmi3FreeFMUState`.
-///
-/// # Safety
-/// See [`fmi3InstantiateModelExchange`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi3FreeFMUState(instance: *mut c_void, of: *mut *mut c_void) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::free_state(instance, of) }
-}
-
-/// `fmi3SerializedFMUStateSize`.
-///
-/// # Safety
-/// See [`fmi3InstantiateModelExchange`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi3SerializedFMUStateSize(
-    instance: *mut c_void,
-    state: *mut c_void,
-    size: *mut usize,
-) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::state_size(instance, state, size) }
-}
-
-/// `fmi3SerializeFMUState`.
-///
-/// # Safety
-/// See [`fmi3InstantiateModelExchange`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi3SerializeFMUState(
-    instance: *mut c_void,
-    state: *mut c_void,
-    to: *mut u8,
-    size: usize,
-) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::write_state(instance, state, to, size) }
-}
-
-/// `fmi3DeserializeFMUState`.
-///
-/// # Safety
-/// See [`fmi3InstantiateModelExchange`].
-#[no_mangle]
-pub unsafe extern "C" fn fmi3DeserializeFMUState(
-    instance: *mut c_void,
-    from: *const u8,
-    size: usize,
-    to: *mut *mut c_void,
-) -> c_int {
-    // SAFETY: see above
-    unsafe { pointers::read_state(instance, from, size, to) }
+passed_on! {
+    fmi3ExitInitializationMode() = exit_initialization;
+    fmi3Terminate() = terminate;
+    fmi3Reset() = reset;
+    fmi3GetFMUState(to: *mut *mut c_void) = get_state;
+    fmi3SetFMUState(state: *mut c_void) = set_state;
+    fmi3FreeFMUState(state: *mut *mut c_void) = free_state;
+    fmi3SerializedFMUStateSize(state: *mut c_void, size: *mut usize) = state_size;
+    fmi3SerializeFMUState(state: *mut c_void, to: *mut u8, size: usize) = write_state;
+    fmi3DeserializeFMUState(from: *const u8, size: usize, to: *mut *mut c_void) = read_state;
 }
 
 /// `fmi3DoStep`. A step ends early where an event stops the run.

@@ -3,9 +3,33 @@
 //! The host must pass pointers as the standards prescribe. Null pointers are errors where a value is needed.
 #![allow(unsafe_code)]
 
-use crate::component::{Component, Status};
+use crate::component::{caught, Component, Log, Status};
+use crate::instance::Instance;
+use crate::location::folder;
+use crate::processor;
 use crate::snapshot::Snapshot;
 use std::ffi::{c_char, c_int, c_void, CStr};
+
+/// Exports functions of this file under their names in a standard.
+macro_rules! passed_on {
+    ($($name:ident($($argument:ident: $type:ty),*) = $function:ident;)+) => {
+        $(
+            #[doc = concat!("`", stringify!($name), "`.")]
+            ///
+            /// # Safety
+            /// The pointers are those of the standard.
+            #[no_mangle]
+            pub unsafe extern "C" fn $name(
+                component: *mut std::ffi::c_void,
+                $($argument: $type),*
+            ) -> std::ffi::c_int {
+                // SAFETY: see above
+                unsafe { $crate::pointers::$function(component, $($argument),*) }
+            }
+        )+
+    };
+}
+pub(crate) use passed_on;
 
 /// Carries out a function on the component behind a pointer.
 ///
@@ -31,8 +55,35 @@ pub unsafe fn behind<'a>(component: *mut c_void) -> Option<&'a mut Component> {
     unsafe { component.cast::<Component>().as_mut() }
 }
 
+/// A new component for the host, or null after a message.
+///
+/// # Safety
+/// As for [`text`].
+pub unsafe fn instantiated(
+    token: *const c_char,
+    resources: *const c_char,
+    refusal: Option<&str>,
+    log: Log,
+) -> *mut c_void {
+    let (made, _) = caught(|| {
+        processor::check()?;
+        if let Some(refusal) = refusal {
+            return Err(refusal.to_string());
+        }
+        // SAFETY: see above
+        unsafe { Instance::new(text(token)?, &folder(text(resources)?)?) }
+    });
+    match made {
+        Ok(instance) => give(Component::new(instance, log)),
+        Err(message) => {
+            log(Status::Error, &message);
+            std::ptr::null_mut()
+        }
+    }
+}
+
 /// Gives a component to the host.
-pub fn give(component: Component) -> *mut c_void {
+fn give(component: Component) -> *mut c_void {
     Box::into_raw(Box::new(component)).cast()
 }
 
@@ -81,6 +132,42 @@ pub unsafe fn write<T>(to: *mut T, value: T) {
         // SAFETY: see above
         unsafe { to.write(value) };
     }
+}
+
+/// Enters the initialization.
+///
+/// # Safety
+/// As for [`with`].
+pub unsafe fn enter_initialization(component: *mut c_void) -> c_int {
+    // SAFETY: see above
+    unsafe { with(component, |own| own.instance.enter_initialization().map(|()| Status::Ok)) }
+}
+
+/// Ends the initialization.
+///
+/// # Safety
+/// As for [`with`].
+pub unsafe fn exit_initialization(component: *mut c_void) -> c_int {
+    // SAFETY: see above
+    unsafe { with(component, |own| own.instance.exit_initialization().map(|()| Status::Ok)) }
+}
+
+/// Ends the run.
+///
+/// # Safety
+/// As for [`with`].
+pub unsafe fn terminate(component: *mut c_void) -> c_int {
+    // SAFETY: see above
+    unsafe { with(component, |own| own.instance.terminate().map(|()| Status::Ok)) }
+}
+
+/// Returns to the state after the instantiation.
+///
+/// # Safety
+/// As for [`with`].
+pub unsafe fn reset(component: *mut c_void) -> c_int {
+    // SAFETY: see above
+    unsafe { behind(component) }.map_or(Status::Error, Component::reset) as c_int
 }
 
 /// Reads variables.

@@ -24,8 +24,8 @@ const ZERO: f64 = 1e-7;
 /// Largest deviation of a number of pitches from a whole number.
 const WHOLE: f64 = 1e-5;
 
-/// Number of passes in which the numbers of pitches are made small.
-const PASSES: usize = 10;
+/// Largest number of passes in which the numbers of pitches are made small.
+const PASSES: usize = 100;
 
 /// A dependence Σ a_k x_k = c between phases. Entries belong to the meshes.
 #[derive(Clone)]
@@ -74,7 +74,7 @@ pub(super) fn close(
         PhaseRelation { a, c }
     };
     let (free, whole) = resolved(&meshes, dependent.iter().map(relation).list());
-    let counts = match pitches(&meshes, whole, &phi) {
+    let counts = match pitches(&meshes, &whole, &phi) {
         Ok(counts) => counts,
         Err(misfit) => return Some(Err(Box::new(failure(model, &meshes, &misfit)))),
     };
@@ -127,60 +127,112 @@ impl PhaseRelation {
         self.a.iter_mut().zip(&other.a).for_each(|(a, b)| *a -= part * b);
         self.c -= part * other.c;
     }
+
+    /// The relation Σ a_k p_k n_k = c for whole numbers n_k of pitches, divided by a unit of which all a_k p_k are
+    /// multiples. Returns the unit too.
+    fn in_whole_numbers(&self, pitch: impl Fn(usize) -> f64) -> (Self, f64) {
+        let entries = self.a.iter().enumerate().map(|(k, a)| a * pitch(k)).list();
+        let zero = ZERO * entries.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let divisor = entries.iter().fold(0.0, |mut a: f64, b| {
+            let mut b = b.abs();
+            while b > zero {
+                (a, b) = (b, (a - (a / b).round() * b).abs());
+            }
+            a
+        });
+        let whole = entries.iter().map(|x| (x / divisor).round()).list();
+        // the mean over all entries has smaller errors
+        let unit = dot(&entries, &whole) / dot(&whole, &whole);
+        (Self { a: whole, c: self.c / unit }, unit)
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Numbers of pitches, and what they add to each relation.
+#[derive(Clone)]
+struct Column {
+    entries: Vec<f64>,
+    n: Vec<f64>,
+}
+
+impl Column {
+    fn subtract(&mut self, times: f64, other: &Self) {
+        let entries = self.entries.iter_mut().zip(&other.entries);
+        let n = self.n.iter_mut().zip(&other.n);
+        entries.chain(n).for_each(|(own, other)| *own -= times * other);
+    }
+
+    /// Subtracts multiples of other columns until none makes the numbers of pitches smaller.
+    fn shorten(&mut self, others: &[&Self]) {
+        for _ in 0..PASSES {
+            let mut shorter = false;
+            for other in others {
+                let times = dot(&self.n, &other.n) / dot(&other.n, &other.n);
+                if times.abs() > 0.5 {
+                    self.subtract(times.round(), other);
+                    shorter = true;
+                }
+            }
+            if !shorter {
+                return;
+            }
+        }
+    }
 }
 
 /// Whole numbers of pitches that satisfy the relations between teeth.
-fn pitches(
-    meshes: &[Mesh],
-    relations: Vec<PhaseRelation>,
-    phi: &[f64],
-) -> Result<Vec<f64>, Misfit> {
+fn pitches(meshes: &[Mesh], relations: &[PhaseRelation], phi: &[f64]) -> Result<Vec<f64>, Misfit> {
     let pitch = |k: usize| meshes[k].pitch.unwrap_or(0.0);
+    let given = relations;
+    let (relations, units): (Vec<PhaseRelation>, Vec<f64>) =
+        given.iter().map(|one| one.in_whole_numbers(pitch)).unzip();
     // the nearest tooth of each pair
-    let mut n = (0..meshes.len())
-        .map(|k| meshes[k].pitch.map_or(0.0, |pitch| (phi[meshes[k].row] / pitch).round()))
-        .list();
-    let mut left: Vec<f64> = relations
-        .iter()
-        .map(|one| one.c - one.a.iter().enumerate().map(|(k, a)| a * n[k] * pitch(k)).sum::<f64>())
-        .list();
-    // each column: its entries in the relations, and the numbers of pitches that it stands for
-    let mut columns: Vec<(Vec<f64>, Vec<f64>)> = (0..meshes.len())
+    let nearest =
+        |k: usize| meshes[k].pitch.map_or(0.0, |pitch| (phi[meshes[k].row] / pitch).round());
+    let n = (0..meshes.len()).map(nearest).list();
+    let mut found =
+        Column { entries: relations.iter().map(|one| dot(&one.a, &n) - one.c).list(), n };
+    let mut columns: Vec<Column> = (0..meshes.len())
         .map(|k| {
-            let entries = relations.iter().map(|one| one.a[k] * pitch(k)).list();
-            (entries, (0..meshes.len()).map(|j| f64::from(u8::from(j == k))).list())
+            let n = (0..meshes.len()).map(|j| f64::from(u8::from(j == k))).list();
+            Column { entries: relations.iter().map(|one| one.a[k]).list(), n }
         })
         .list();
-    for (r, relation) in relations.iter().enumerate() {
-        let Some(pivot) = reduced(&mut columns, r) else { continue };
-        let count = left[r] / pivot.0[r];
-        let (whole, rest) = (count.round(), count - count.round());
+    for r in 0..relations.len() {
+        let Some(mut pivot) = reduced(&mut columns, r) else { continue };
+        // the other columns leave the sum of this relation as it is, so that they may make numbers smaller
+        for _ in 0..2 {
+            for k in 0..columns.len() {
+                let mut column = columns[k].clone();
+                let others = (0..columns.len()).filter(|j| *j != k).map(|j| &columns[j]).list();
+                column.shorten(&others);
+                columns[k] = column;
+            }
+        }
+        let others = columns.iter().list();
+        pivot.shorten(&others);
+        found.subtract((found.entries[r] / pivot.entries[r]).round(), &pivot);
+        found.shorten(&others);
+        let rest = found.entries[r] / pivot.entries[r];
         if rest.abs() > WHOLE {
+            let (relation, unit) = (given[r].clone(), pivot.entries[r] * units[r]);
             let wheels = (0..meshes.len()).filter(|k| relation.a[*k] != 0.0).list();
             let last = *wheels.last().expect("a pivot has an entry");
-            let (unit, phase) = (pivot.0[r], rest * pivot.0[r] / relation.a[last]);
-            return Err(Misfit { relation: relation.clone(), wheels, phase, unit });
-        }
-        left.iter_mut().zip(&pivot.0).for_each(|(left, entry)| *left -= whole * entry);
-        n.iter_mut().zip(&pivot.1).for_each(|(n, own)| *n += whole * own);
-    }
-    // the other columns leave the sums as they are
-    for _ in 0..PASSES {
-        for (_, own) in &columns {
-            let part = n.iter().zip(own).map(|(n, own)| n * own).sum::<f64>();
-            let times = (part / own.iter().map(|own| own * own).sum::<f64>()).round();
-            n.iter_mut().zip(own).for_each(|(n, own)| *n -= times * own);
+            let phase = -rest * unit / relation.a[last];
+            return Err(Misfit { relation, wheels, phase, unit });
         }
     }
-    Ok(n)
+    Ok(found.n)
 }
 
 /// The only column with an entry in row `r` after Euclid's algorithm, removed from the others.
-fn reduced(columns: &mut Vec<(Vec<f64>, Vec<f64>)>, r: usize) -> Option<(Vec<f64>, Vec<f64>)> {
-    let largest = columns.iter().fold(0.0, |most: f64, (entries, _)| most.max(entries[r].abs()));
+fn reduced(columns: &mut Vec<Column>, r: usize) -> Option<Column> {
     loop {
-        let entry = |k: &usize| columns[*k].0[r].abs();
-        let mut with_entry = (0..columns.len()).filter(|k| entry(k) > ZERO * largest).list();
+        let entry = |k: &usize| columns[*k].entries[r].abs();
+        let mut with_entry = (0..columns.len()).filter(|k| entry(k) > 0.0).list();
         with_entry.sort_by(|a, b| entry(a).total_cmp(&entry(b)));
         let (least, others) = with_entry.split_first()?;
         if others.is_empty() {
@@ -188,10 +240,8 @@ fn reduced(columns: &mut Vec<(Vec<f64>, Vec<f64>)>, r: usize) -> Option<(Vec<f64
         }
         let by = columns[*least].clone();
         for k in others {
-            let times = (columns[*k].0[r] / by.0[r]).round();
-            let (entries, own) = &mut columns[*k];
-            entries.iter_mut().zip(&by.0).for_each(|(x, by)| *x -= times * by);
-            own.iter_mut().zip(&by.1).for_each(|(x, by)| *x -= times * by);
+            let times = (columns[*k].entries[r] / by.entries[r]).round();
+            columns[*k].subtract(times, &by);
         }
     }
 }

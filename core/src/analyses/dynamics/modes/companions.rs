@@ -30,12 +30,12 @@ pub(super) fn may_rub(
     }
 }
 
-/// The mode of friction whose contact is apart. At its release, the gap of a compliant contact may be a negative rounding
-/// error, which the slack removes.
-pub(super) fn apart(model: &Model, place: &StateAt<'_>, force: usize) -> ForceMode {
-    let contact = contact_of(model, force).filter(|contact| !is_contact(model, *contact));
-    let gap = contact.map_or(0.0, |contact| place.thresholds(model, &[contact])[0]);
-    ForceMode { slack: (-2.0 * gap).max(0.0), ..ForceMode::new(force, Mode::Free) }
+/// The slack of the gap of a compliant contact whose friction does not act.
+pub(super) fn open_slack(model: &Model, place: &StateAt<'_>, force: usize) -> f64 {
+    contact_of(model, force).filter(|contact| !is_contact(model, *contact)).map_or(0.0, |contact| {
+        let gap = place.thresholds(model, &[contact])[0];
+        place.rounding(model, contact) + (-gap).max(0.0)
+    })
 }
 
 /// Whether a force may hold together with others. The friction of a rigid contact needs the contact at rest.

@@ -16,7 +16,7 @@ use crate::equations::kinematics::Motions;
 use crate::math::Listed;
 use crate::model::{size, DriverSet, ForceMode, Model};
 
-/// Speed at which friction in a joint that drivers hold begins to slide, relative to the speeds of the mechanism.
+/// Speed at which friction without its own equation begins to slide, relative to the speeds of the mechanism.
 const BEGINS: f64 = 1e-6;
 
 /// The modes of forces that hold together: their equations are independent of each other and of the joints. `free`
@@ -80,13 +80,13 @@ fn dependent(
     if !matches!(model.forces[force].element.behaviour(), Some(Behaviour::Sticks)) {
         return of(Mode::Idle, 0.0);
     }
-    if let Some((leader, sense)) = leader(model, place, held, force) {
-        return of(Mode::Follows { leader, sense }, 0.0);
-    }
     let begins = BEGINS * place.speed_scale(model, held).max(size(model));
-    match passes(model, place, held, (force, free, begins)) {
-        true => of(free, 0.0),
-        false => of(Mode::Idle, begins),
+    if passes(model, place, held, (force, free, begins)) {
+        return of(free, 0.0);
+    }
+    match leader(model, place, held, force) {
+        Some((leader, sense)) => of(Mode::Follows { leader, sense }, begins),
+        None => of(Mode::Idle, begins),
     }
 }
 

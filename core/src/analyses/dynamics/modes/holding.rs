@@ -51,7 +51,9 @@ pub(super) fn decide(
     let (mut modes, mut candidates) = (Vec::new(), Vec::new());
     for ((k, threshold), holders) in all.iter().zip(&thresholds).zip(&holders) {
         if !companions::may_rub(model, place, *k, (before, &rest, fired)) {
-            modes.push(companions::apart(model, place, *k));
+            // the gap of a contact that has just separated may still be negative
+            let slack = companions::open_slack(model, place, *k);
+            modes.push(ForceMode { slack, ..ForceMode::new(*k, Mode::Free) });
             continue;
         }
         let (free, candidate) = match model.forces[*k].element.behaviour() {
@@ -86,9 +88,9 @@ pub(super) fn decide(
         own.held_by = at.map(|at| holders[at]).unwrap_or_default();
     }
     for (own, threshold) in modes.iter_mut().zip(&thresholds) {
-        if let (Mode::Slides(sign), true) = (own.mode, threshold.abs() <= STILL * speed) {
-            // a rounding error of the speed may have the opposite direction, and at rest the speed consists of
-            // rounding errors
+        let Mode::Slides(sign) = own.mode else { continue };
+        if sign * threshold <= STILL * speed {
+            // a speed that counts as zero may have the opposite direction, and at rest it consists of rounding errors
             own.slack = (-2.0 * sign * threshold).max(NOISE * speed);
         }
     }
@@ -113,7 +115,7 @@ fn give_slack(model: &Model, place: &StateAt<'_>, touching: &[usize], modes: &mu
             (Mode::Free, Some(at)) if rates[at] > SLOW * unit(model, own.force) => 0.0,
             // a gap that was held is not exactly zero
             (Mode::Free, Some(at)) => place.rounding(model, own.force) + (-gaps[at]).max(0.0),
-            (Mode::Holds(_) | Mode::Follows { .. }, _) => noise,
+            (Mode::Holds(_), _) => noise,
             _ => own.slack,
         };
     }

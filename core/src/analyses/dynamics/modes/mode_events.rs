@@ -105,17 +105,16 @@ impl ModeFunction {
 /// [`Behaviour::events`]. The modes are read from the model.
 pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction, Direction) {
     let item = &model.forces[force];
-    let of = |k: usize| model.blueprint.modes.iter().find(move |of| of.force == k);
-    // a compliant contact that is apart begins with the slack of its friction
-    let apart = item.partner.and_then(of).filter(|of| of.mode == Mode::Free);
-    let own = of(force).or(apart);
+    // whether a compliant contact whose friction has modes is closed
+    let rubs = item.partner.map(|of| model.forces[of].mode).filter(|of| *of != Mode::Open);
+    let closed = rubs.map(|mode| mode != Mode::Free);
+    // the slack of a contact that is open is that of its friction
+    let named = item.partner.filter(|_| closed == Some(false)).unwrap_or(force);
+    let own = model.blueprint.modes.iter().find(|of| of.force == named);
     let (slack, held_by) = own.map(|of| (of.slack, of.held_by)).unwrap_or_default();
     let threshold = |sign: f64| ModeFunction::Threshold { force, sign, slack, held_by };
     let (gap, falling) = (threshold(1.0), Direction::Falling);
     let reserve = ModeFunction::Reserve { force, slack };
-    // whether a compliant contact whose friction has modes is closed
-    let rubs = item.partner.map(|of| model.forces[of].mode).filter(|of| *of != Mode::Open);
-    let closed = rubs.map(|mode| mode != Mode::Free);
     match (item.element.behaviour(), item.mode, place) {
         (Some(Behaviour::Compliant { .. }), _, 0) if closed == Some(true) => {
             (ModeFunction::Never, falling)
@@ -132,7 +131,7 @@ pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction,
         (Some(Behaviour::Sticks), Mode::Slides(sign), 0) => (threshold(sign), falling),
         (Some(Behaviour::Impacts { .. }), Mode::Free, 0 | GRAZE) => (gap, falling),
         (Some(_), Mode::Holds(_), 1) => (reserve, falling),
-        (Some(Behaviour::Sticks), Mode::Idle, 1) => {
+        (Some(Behaviour::Sticks), Mode::Idle | Mode::Follows { .. }, 1) => {
             (ModeFunction::Begins { force, at: slack, held_by }, falling)
         }
         _ => (ModeFunction::Never, falling),
