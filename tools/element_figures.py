@@ -90,8 +90,20 @@ def rack() -> kp.State:
     return kp.assemble(m, set={"rack.x": 0, "rack.vx": -0.4})
 
 
+def bush() -> kp.State:
+    """A pendulum whose pin and bush are drawn as curves."""
+    m = kp.Model("pendulum")
+    m.ground.points(O=(0, 0))
+    m.ground.curves(bush={"circle": (0, 0, 0.1)})
+    pin = {"pin": {"circle": (0, 0, 0.06)}}
+    m.body("rod", mass=1, inertia=0.02, points={"P": (0, 0), "E": (0.5, 0)}, curves=pin)
+    m.clearance("B", "ground.O", "rod.P", radius=0.1, clearance=0.04, restitution=0.4)
+    return kp.assemble(m, set={"rod.x": 0.02, "rod.y": -0.0346, "rod.angle": "-35 deg"})
+
+
 MODELS: dict[str, Callable[[], kp.State]] = {
     "bushing": sleeve,
+    "clearance": bush,
     "clutch": lambda: on_a_wheel(lambda m: m.clutch("brake", "ground", "wheel", capacity=2)),
     "constraint": wire,
     "coupling": coupled,

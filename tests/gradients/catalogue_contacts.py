@@ -14,6 +14,7 @@ def touching(of: Units) -> Made:
         mu=(0.3, 1),
         v0=(0.05, v),
         a=(0.2, 1 / s),
+        w=(0.1, s**2 / of.force),
     )
     m.ground.curves(floor={"x": "u", "y": "a * u^2", "range": [-5 * s, 5 * s]})
     of.disc(m, "ball", {"C": (0, 0)}, center=(0.03 * s, 0.01 * s))
@@ -28,9 +29,11 @@ def touching(of: Units) -> Made:
         damping="c",
         friction="mu",
         velocity="v0",
+        wear="w",
     )
     start = {"ball.x": of.near(0.6) * s, "ball.y": s, "ball.vx": 0.5 * v, "ball.angle": 0.0}
     measures = ["ball.x.final", "ball.y.final", "ball.omega.final", "touch.force.max"]
+    measures += ["touch.wear_volume.final"]
     return Made(
         m, [*measures, "energy.dissipated.final", "touch.gap.final"], start, end=2.5, changes=True
     )
@@ -83,4 +86,35 @@ def bouncing(of: Units) -> Made:
     return Made(m, [*measures, "touch.gap.final"], start, end=3.5, changes=True)
 
 
-CONTACTS: list[Maker] = [touching, rolling_over, bouncing]
+def loose_pin(of: Units) -> Made:
+    """A pendulum whose pin slides and rolls in its bush."""
+    s, v = of.size, of.size * of.rate
+    weight = of.mass * v * of.rate
+    m = of.model(
+        R=(0.3, s), gap=(0.05, s), k=(9000, weight / s), c=(0.2, 1 / v), mu=(0.1, 1), most=(0.2, 1)
+    )
+    m.ground.points(O=(0, 0))
+    of.disc(m, "disc", {"C": (0, 0.4 * s)}, center=(0.03 * s, 0.01 * s))
+    m.clearance(
+        "pin",
+        "ground.O",
+        "disc.C",
+        radius="R",
+        clearance="gap",
+        stiffness="k",
+        exponent=1,
+        damping="c",
+        friction="mu",
+        static="most",
+    )
+    start = {
+        "disc.x": of.near(0.02) * s,
+        "disc.y": -0.44 * s,
+        "disc.vx": 0.5 * v,
+        "disc.angle": 0.0,
+    }
+    measures = ["disc.x.final", "disc.omega.final", "energy.dissipated.final", "pin.gap.final"]
+    return Made(m, measures, start, end=2.0, changes=True)
+
+
+CONTACTS: list[Maker] = [touching, rolling_over, bouncing, loose_pin]

@@ -126,6 +126,11 @@ def test_what_mjcf_cannot_describe_is_refused(tmp_path: Path) -> None:
 
     refused(kp.load("examples/motor_press.toml"), "mesh: joints of type gear")
     refused(kp.load("examples/quick_return.toml"), "cannot be written as MJCF")
+    m = kp.Model("pin")
+    m.ground.points(A=(0, 0))
+    m.bar("rod", mass=1, length=1, ends=("A", "B"))
+    m.clearance("A", "ground.A", "rod.A", radius=0.01, clearance=1e-4, restitution=0.5)
+    refused(kp.Case(m, {"set": {"rod.x": 0.5, "rod.y": 0}}), "A: clearance cannot be written")
     for law in ("k*t", "3*rod.omega"):
         m = kp.Model("rod", parameters={"k": 3})
         m.ground.points(A=(0, 0))

@@ -9,7 +9,10 @@ pub fn all() -> String {
     for group in [Group::Joints, Group::Drivers] {
         for element in sections[group.section()].as_array_mut().into_iter().flatten() {
             let name = element["name"].as_str().unwrap_or_default().to_string();
-            element["formulas"] = declared(group, &name);
+            let formulas = declared(group, &name);
+            if !formulas.is_null() {
+                element["formulas"] = formulas; // joints that act as forces have none
+            }
         }
     }
     sections.to_string()

@@ -5,7 +5,7 @@ use crate::elements::derive::{columns_of, participants};
 use crate::elements::{At, BodyId, Constraint, Required};
 use crate::equations::kinematics::Motions;
 use crate::math::{Listed, Motion, Pose};
-use crate::model::{column_scales, Model};
+use crate::model::{column_scales, ForceItem, Model};
 
 /// Largest relative deviation from the required value.
 const NEAR: f64 = 1e-6;
@@ -47,10 +47,16 @@ fn joints(model: &Model) -> impl Iterator<Item = Needing<'_>> {
 /// The first quantity that differs from its required value at `q`.
 pub(super) fn missed(model: &Model, t: f64, q: &[f64]) -> Option<Unmet> {
     let motions = Motions::at_rest(&model.layout, q);
-    joints(model).find_map(|item| {
+    let of_force = |item: &ForceItem| {
+        let bodies: Vec<Pose> = item.bodies.iter().map(|b| motions[b.0].pose).list();
+        let required = item.element.requires(&At { bodies: &bodies, own: &[], t })?;
+        wrong(&item.name, &required)
+    };
+    let rigid = joints(model).find_map(|item| {
         let all = required(item, &motions, t).into_iter();
         all.filter_map(|required| wrong(item.name, &required)).next()
-    })
+    });
+    rigid.or_else(|| model.forces.iter().find_map(of_force))
 }
 
 /// The first quantity that the mechanism does not hold at `q`, because it changes in an admissible motion.

@@ -152,7 +152,7 @@ impl Signal {
             }
             Self::Measured { id, order: order @ (0 | 1), .. } => {
                 let of = |part: &StepPart<'_>| match id {
-                    ElementId::Force(k) if part.is_contact(*k) => part.clearance(*k, None),
+                    ElementId::Force(k) if part.is_contact(*k) => part.gap(*k, None),
                     _ => formula.map(|of| part.followed(of)),
                 };
                 return if *order == 0 { of(part) } else { part.rate(of) };

@@ -183,7 +183,7 @@ impl<'a> StepPart<'a> {
     }
 
     /// The distance of a force that begins or ends a contact, or the least of several. None if it is not known.
-    pub fn clearance(&self, force: usize, place: Option<usize>) -> Option<Bounds> {
+    pub fn gap(&self, force: usize, place: Option<usize>) -> Option<Bounds> {
         let item = &self.model.forces[force];
         let all = item.element.clearances();
         let wanted = all.iter().enumerate().filter(|(k, _)| place.is_none_or(|place| *k == place));
@@ -198,11 +198,11 @@ impl<'a> StepPart<'a> {
         if damping == 0.0 {
             return Some(Bounds::one());
         }
-        let gap = self.clearance(force, Some(place))?;
+        let gap = self.gap(force, Some(place))?;
         if gap.value.low > 0.0 {
             return Some(Bounds::one());
         }
-        let rate = self.rate(|part| part.clearance(force, Some(place)))?;
+        let rate = self.rate(|part| part.gap(force, Some(place)))?;
         let factor = Bounds::one() - Bounds::constant(damping) * rate;
         Some(Bounds::select(-gap, factor, Bounds::one()))
     }

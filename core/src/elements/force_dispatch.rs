@@ -11,15 +11,30 @@ macro_rules! forces {
         }
 
         impl ForceElement<Tape> {
-            /// Reads an element by the name of its type. The outer option is None if there is no such type.
-            pub fn read(kind: &str, source: &mut dyn Source) -> Option<Option<Self>> {
+            /// Reads an element of a section by the name of its type. The outer option is None if there is no such type.
+            pub fn read(
+                group: Group,
+                kind: &str,
+                source: &mut dyn Source,
+            ) -> Option<Option<Self>> {
                 $($(#[$on])* {
-                    if kind == <$Name>::NAME && !kind.contains(' ') && <$Name as Force>::IN_FILES {
+                    let own = kind == <$Name>::NAME && group == <$Name as Force>::GROUP;
+                    if own && !kind.contains(' ') && <$Name as Force>::IN_FILES {
                         return Some(<$Name>::read(source).map(Self::$Name));
                     }
                 })+
                 None
             }
+        }
+
+        /// Whether joints of a type act as forces.
+        pub fn acts_as_force(kind: &str) -> bool {
+            $($(#[$on])* {
+                if kind == <$Name>::NAME {
+                    return matches!(<$Name as Force>::GROUP, Group::Joints);
+                }
+            })+
+            false
         }
 
         /// The position quantities of a force of a type.
@@ -79,6 +94,10 @@ macro_rules! forces {
             pub fn followed(&self) -> Option<&Followed<S>> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::followed(e),)+ }
             }
+            /// The section of files that contains it.
+            pub fn group(&self) -> Group {
+                match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::GROUP,)+ }
+            }
             /// Whether files contain elements of its type.
             pub fn in_files(&self) -> bool {
                 match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::IN_FILES,)+ }
@@ -123,6 +142,14 @@ macro_rules! forces {
             /// The distances whose zeros begin and end a contact.
             pub fn clearances(&self) -> Vec<Clearance<'_>> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::clearances(e),)+ }
+            }
+            /// The field that contains its play, and the play, m.
+            pub fn play(&self) -> Option<(&'static str, f64)> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::play(e),)+ }
+            }
+            /// A quantity that a start must meet.
+            pub fn requires(&self, at: &At<'_, f64>) -> Option<Required<f64>> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::requires(e, at),)+ }
             }
             /// Whether the dimensions that give a stress are known.
             pub fn has_stress(&self) -> bool {
@@ -286,7 +313,7 @@ macro_rules! forces {
             let mut all = Vec::new();
             $($(#[$on])* {
                 if <$Name as Force>::IN_FILES {
-                    all.push(declared::<$Name>(Group::Forces));
+                    all.push(declared::<$Name>(<$Name as Force>::GROUP));
                 }
             })+
             all

@@ -3,9 +3,11 @@
 use super::clearance::Clearance;
 use super::declare::Element;
 use super::followed::{BodyId, Followed, JointId};
-use super::joint_trait::{At, ResultQuantity};
+use super::group::Group;
+use super::joint_trait::{At, Required, ResultQuantity};
 use super::measured::Measured;
 use super::mode::{Behaviour, Mode};
+use super::part::Part;
 use super::symbols::SceneSymbol;
 use super::{Constraint, ForceElement};
 use crate::expression::Tape;
@@ -76,40 +78,6 @@ impl<S> Situation<'_, S> {
     }
 }
 
-/// The entry of the energy balance for the work of a part of a force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Nature {
-    /// The potential energy of the element.
-    Conservative,
-    /// Dissipated energy.
-    Dissipative,
-    /// Work from outside.
-    Applied,
-    /// An exchange between the bodies and the states of the element. The [own powers](Force::own_powers) of the
-    /// element are counted instead.
-    Exchanged,
-}
-
-impl Nature {
-    /// The nature of a part with a law of time or state, which has no potential.
-    #[inline]
-    pub fn under_law(self) -> Self {
-        match self {
-            Self::Conservative => Self::Applied,
-            other => other,
-        }
-    }
-}
-
-/// A named part of a force, such as `stiffness`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Part {
-    /// Name: `sol["spring"].stiffness_torque(…)`.
-    pub name: &'static str,
-    /// The entry of its work in the energy balance while the parameters are constant.
-    pub nature: Nature,
-}
-
 /// A first-order state of an element, such as the current of a motor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OwnState {
@@ -149,6 +117,9 @@ pub trait Force: Element {
 
     /// Whether files contain elements of the type. Others are made by the reader of bodies.
     const IN_FILES: bool = true;
+
+    /// The section of files that contains elements of the type.
+    const GROUP: Group = Group::Forces;
 
     /// The position quantities that can be measured on the force.
     const MEASURED: &'static [Measured] = &[];
@@ -210,6 +181,20 @@ pub trait Force: Element {
     #[inline]
     fn joint<S>(e: &Self::Over<S>) -> Option<&Constraint<S>> {
         let _ = e;
+        None
+    }
+
+    /// The field that contains the play of a joint, and its value, m.
+    #[inline]
+    fn play(e: &Self::Over<f64>) -> Option<(&'static str, f64)> {
+        let _ = e;
+        None
+    }
+
+    /// A quantity that a start must meet.
+    #[inline]
+    fn requires(e: &Self::Over<f64>, at: &At<'_, f64>) -> Option<Required<f64>> {
+        let _ = (e, at);
         None
     }
 

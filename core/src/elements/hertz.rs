@@ -1,9 +1,11 @@
-//! The law of compliant stops and contacts: N = max(0, k δⁿ (1 + c δ̇)) with the depth δ (Hunt and Crossley 1975).
+//! The law of compliant stops and contacts: N = max(0, E(δ) (1 + c δ̇)) with the depth δ (Hunt and Crossley 1975).
 //!
-//! The elastic part k δⁿ has the potential k δⁿ⁺¹/(n + 1). The rest of N is the damping part. It dissipates energy in
+//! The elastic part E is k δⁿ, with the potential k δⁿ⁺¹/(n + 1), or that of two [`Cylinders`]. The rest of N is the damping part. It dissipates energy in
 //! both directions, and cancels the elastic part where 1 + c δ̇ < 0. With c in s/m and k in N/mⁿ, N is in N.
 
+use super::cylinders::Cylinders;
 use super::force_trait::Situation;
+use super::kinds::NormalLaw;
 use crate::math::Real;
 
 /// The number of switches of one contact.
@@ -12,15 +14,50 @@ pub(super) const SWITCHES: usize = 2;
 /// The default of `rest_speed`.
 const REST_SPEED: f64 = 1e-9;
 
+/// The elastic part of N.
+#[derive(Clone, Copy)]
+pub(super) enum Elastic<S> {
+    /// k δⁿ: k in N/mⁿ, and n.
+    Power(S, S),
+    /// The force between cylinders.
+    Cylinders(Cylinders<S>),
+}
+
 /// The coefficients of the law.
 #[derive(Clone, Copy)]
 pub(super) struct Hertz<S> {
+    /// The elastic part.
+    pub elastic: Elastic<S>,
+    /// c, s/m.
+    pub damping: S,
+}
+
+/// The fields of the law in an element.
+pub struct Compliance<S> {
     /// k, N/mⁿ.
-    pub stiffness: S,
+    pub stiffness: Option<S>,
     /// n.
     pub exponent: S,
     /// c, s/m.
     pub damping: S,
+    /// Modulus of elasticity of cylinders, N/m².
+    pub young: Option<S>,
+    /// Their ratio of Poisson.
+    pub poisson: Option<S>,
+    /// Their width, m.
+    pub width: Option<S>,
+}
+
+impl<S: Real> Compliance<S> {
+    /// The law, for cylinders with a sum of their signed radii.
+    pub(super) fn law(&self, apart: S) -> Option<Hertz<S>> {
+        let (young, poisson, width) = (self.young, self.poisson, self.width);
+        let cylinders = young.zip(poisson).zip(width).map(|((young, poisson), width)| {
+            Elastic::Cylinders(Cylinders::new([young, poisson, width], apart))
+        });
+        let power = self.stiffness.map(|k| Elastic::Power(k, self.exponent));
+        Some(Hertz { elastic: cylinders.or(power)?, damping: self.damping })
+    }
 }
 
 /// A depth and its rate.
@@ -71,7 +108,10 @@ impl<S: Real> Hertz<S> {
         if !touches(at, first, depth) {
             return S::zero();
         }
-        let energy = self.elastic(depth) * depth / (self.exponent + S::one());
+        let energy = match self.elastic {
+            Elastic::Power(_, exponent) => self.elastic(depth) * depth / (exponent + S::one()),
+            Elastic::Cylinders(cylinders) => cylinders.potential(depth),
+        };
         at.choose(first, depth, energy, S::zero())
     }
 
@@ -82,11 +122,24 @@ impl<S: Real> Hertz<S> {
         out[1] = S::select(depth.value, factor, S::one());
     }
 
-    /// k δⁿ, continued to negative depths as an odd function, so that a step may extend beyond the release.
+    /// k and n of the elastic part, for cylinders at a light load.
+    pub fn power(&self) -> [S; 2] {
+        match self.elastic {
+            Elastic::Power(stiffness, exponent) => [stiffness, exponent],
+            Elastic::Cylinders(cylinders) => cylinders.power(),
+        }
+    }
+
+    /// The elastic part, continued to negative depths as an odd function, so that a step may extend beyond the release.
     fn elastic(&self, depth: S) -> S {
-        let squared = depth * depth;
-        let bend = (self.exponent - S::one()) * depth.abs().ln();
-        self.stiffness * S::select(squared, depth * bend.exp(), depth)
+        match self.elastic {
+            Elastic::Power(stiffness, exponent) => {
+                let squared = depth * depth;
+                let bend = (exponent - S::one()) * depth.abs().ln();
+                stiffness * S::select(squared, depth * bend.exp(), depth)
+            }
+            Elastic::Cylinders(cylinders) => cylinders.force(depth),
+        }
     }
 }
 
@@ -127,5 +180,71 @@ pub(super) fn fault(
             refuse("restitution", "must be from 0 to 1")
         }
         _ => None,
+    }
+}
+
+impl Compliance<f64> {
+    /// The fault of the fields that select a law. `apart` is the sum of the signed radii of two circles.
+    pub(super) fn fault(
+        &self,
+        law: NormalLaw,
+        apart: Option<f64>,
+        [restitution, rest_speed]: [Option<f64>; 2],
+    ) -> Option<(&'static str, String)> {
+        let own = match law {
+            NormalLaw::HuntCrossley => self.of_cylinders().into_iter().find(|of| of.1.is_some()),
+            NormalLaw::Hertz => return self.fault_of_cylinders(apart, restitution),
+            NormalLaw::LankaraniNikravesh | NormalLaw::Flores => {
+                let message = "lankarani_nikravesh and flores are not offered: their damping depends on the speed with \
+                               which each contact began, which no force keeps; at about the speed v, hunt_crossley \
+                               has the same force with damping = 3*(1 - e^2)/(4*v), or 8*(1 - e)/(5*e*v)";
+                return Some(("law", message.to_string()));
+            }
+        };
+        let of_other = |(field, _)| {
+            (field, "belongs to law = \"hertz\"; give this law, or remove the field".to_string())
+        };
+        let bounces = [restitution, rest_speed];
+        let usual = || fault(self.stiffness, [self.exponent, 1.5], self.damping, bounces);
+        own.map(of_other).or_else(usual)
+    }
+
+    fn of_cylinders(&self) -> [(&'static str, Option<f64>); 3] {
+        [("young", self.young), ("poisson", self.poisson), ("width", self.width)]
+    }
+
+    fn fault_of_cylinders(
+        &self,
+        apart: Option<f64>,
+        restitution: Option<f64>,
+    ) -> Option<(&'static str, String)> {
+        let refuse = |field, message: &str| Some((field, message.to_string()));
+        for (field, value) in self.of_cylinders() {
+            match (field, value) {
+                (_, None) => {
+                    return refuse(field, "missing; law = \"hertz\" has young, poisson and width")
+                }
+                ("poisson", Some(x)) if !(0.0..=0.5).contains(&x) => {
+                    return refuse(field, "must be from 0 to 0.5");
+                }
+                ("young" | "width", Some(x)) if x <= 0.0 => {
+                    return refuse(field, "must be positive")
+                }
+                _ => {}
+            }
+        }
+        let alone = "not together with law = \"hertz\"; remove it, or give law = \"hunt_crossley\"";
+        match (self.stiffness, restitution) {
+            (Some(_), _) => refuse("stiffness", alone),
+            (_, Some(_)) => refuse("restitution", alone),
+            _ if self.exponent != 1.5 => refuse("exponent", alone),
+            _ if self.damping < 0.0 => refuse("damping", "must not be negative"),
+            _ if apart.is_none_or(|apart| apart <= 0.0) => {
+                let message = "hertz is the law of two cylinders: the curve must be a circle, and radius > 0, inside a \
+                               circle below its radius; otherwise give law = \"hunt_crossley\" and stiffness";
+                refuse("law", message)
+            }
+            _ => None,
+        }
     }
 }

@@ -280,6 +280,20 @@ words! {
     }
 }
 
+words! {
+    /// The law of the normal force of a compliant contact.
+    normal_law: NormalLaw {
+        /// Hunt and Crossley.
+        HuntCrossley = "hunt_crossley",
+        /// Hertz, for cylinders.
+        Hertz = "hertz",
+        /// Lankarani and Nikravesh.
+        LankaraniNikravesh = "lankarani_nikravesh",
+        /// Flores and others.
+        Flores = "flores",
+    }
+}
+
 /// The kind of an equation, given by its unit.
 #[allow(non_camel_case_types)] // a type in `element!`, written like a word
 #[derive(Clone, Copy, Debug)]

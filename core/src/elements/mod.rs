@@ -15,6 +15,7 @@ mod corner;
 mod curve_forms;
 mod curve_formula;
 mod curve_points;
+mod cylinders;
 mod declare;
 pub(crate) mod derive;
 mod dispatch;
@@ -32,9 +33,11 @@ mod measure;
 mod measured;
 mod mode;
 mod nearest;
+mod part;
 mod plain_bearing;
 mod plane_curve;
 mod pool;
+mod pressing;
 mod quantity_kind;
 mod symbols;
 mod touch;
@@ -87,6 +90,7 @@ pub mod forces {
     mod actuator;
     mod beam_piece;
     mod bushing;
+    mod clearance_joint;
     mod clutch;
     mod contact;
     mod contact_friction;
@@ -103,13 +107,14 @@ pub mod forces {
     pub use actuator::Actuator;
     pub use beam_piece::BeamPiece;
     pub use bushing::Bushing;
+    pub use clearance_joint::ClearanceJoint;
     pub use clutch::Clutch;
     pub use contact::{Contact, Resting};
     pub use contact_friction::{ContactFriction, ContactSticking};
     pub use friction::Friction;
     pub use generalized_force::GeneralizedForce;
     pub use motor::Motor;
-    pub use play::Play;
+    pub use play::{Play, BACKLASH};
     pub use point_force::PointForce;
     pub use spring_damper::SpringDamper;
     pub use stop::Stop;
@@ -140,7 +145,7 @@ pub use field::{Default, Field, Shape, TOLERANCES, UNITS_OF_EQUATIONS};
 pub use followed::{Acted, BodyId, Coordinate, CoordinateOf, Followed, JointId, QuantityOf, PLACE};
 pub use foot::{rim, Rim};
 use force_dispatch::forces;
-pub use force_trait::{Force, Held, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
+pub use force_trait::{Force, Held, OwnPowers, OwnState, Situation, Wrenches};
 use forces::*;
 pub use group::Group;
 pub use joint_trait::{
@@ -149,12 +154,13 @@ pub use joint_trait::{
 use joints::*;
 pub use kinds::{
     acted, bearing, body, condition, coordinate, curve, equation_unit, flag, frame, joint, law,
-    law_pair, laws, number, optional_condition, optional_law, optional_number, optional_only,
-    optional_pair, optional_unit, pair, point, side, terms, triple, units, CurveOn, Frame, Kind,
-    Only, Optional, PointOn, Side, Source,
+    law_pair, laws, normal_law, number, optional_condition, optional_law, optional_number,
+    optional_only, optional_pair, optional_unit, pair, point, side, terms, triple, units, CurveOn,
+    Frame, Kind, NormalLaw, Only, Optional, PointOn, Side, Source,
 };
 pub use measured::Measured;
 pub use mode::{Behaviour, Mode};
+pub use part::{Nature, Part};
 pub use plain_bearing::Bearing;
 pub use plane_curve::Curve;
 pub use pool::{Place, Pooled, VisitForces, VisitJoints};
@@ -204,6 +210,7 @@ forces! {
     Clutch,
     Stop,
     Contact,
+    ClearanceJoint,
     Play,
     ContactFriction,
     BeamPiece,

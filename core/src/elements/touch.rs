@@ -82,6 +82,14 @@ impl<S: Real> CurveTouch<'_, S> {
         })
     }
 
+    /// The sum of the signed radii of two circles; zero for another curve.
+    pub fn pitch(&self) -> S {
+        match &self.curve.on.curve {
+            Curve::Circle { radius, .. } => *radius + self.turned() * self.radius,
+            _ => S::zero(),
+        }
+    }
+
     /// The state with the nearest point C(u) as place of action.
     pub fn at_foot(&self, at: &Situation<'_, S>) -> TouchPoint<S> {
         self.at(at, |near| (near.distance, S::one()))
@@ -146,8 +154,8 @@ impl<S: Real> CurveTouch<'_, S> {
         let (p, turned) = (self.center(i, j), self.turned());
         let spin = turned * self.radius * (i.angle - j.angle);
         match &self.curve.on.curve {
-            Curve::Circle { center, radius } => {
-                let (arm, pitch) = (p - *center, *radius + turned * self.radius);
+            Curve::Circle { center, .. } => {
+                let (arm, pitch) = (p - *center, self.pitch());
                 let turn = S::constant(std::f64::consts::TAU) * pitch;
                 let s = pitch * arm.y.atan2(arm.x) - spin - value;
                 s - turn * (s / turn + S::constant(0.5)).floor()

@@ -96,7 +96,7 @@ impl Blueprint {
         let linked = (self.bodies.as_slice(), self.constraints.as_slice());
         let mut linker = Linker::new(group, entry, scope, linked, quantities, problems);
         let force = match group {
-            Group::Forces => Some(ForceElement::read(kind, &mut linker)),
+            Group::Forces => Some(ForceElement::read(group, kind, &mut linker)),
             _ if play::is_written(entry) => Some(play::read(entry, kind, &mut linker)),
             _ => None,
         };

@@ -6,10 +6,13 @@ use super::model::Model;
 use super::outline::Outline;
 use super::problem::Problem;
 use super::shape_checks;
+use super::size::size;
 use crate::elements::{Curve, ForceElement};
 use crate::expression::{FormulaValues as Values, Tape};
 use crate::math::Listed;
 
+/// Opening of joints that counts as closed, relative to the size of the mechanism.
+const CLOSED: f64 = 1e-9;
 /// Lengths above this limit, m, have powers that overflow in the solution for positions.
 const LONGEST: f64 = 1e60;
 
@@ -55,8 +58,14 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
             problems.push(Problem::at(&[section, &item.name, field], message));
         }
     }
+    forces(model, problems);
+}
+
+fn forces(model: &Model, problems: &mut Vec<Problem>) {
+    let parameters = &model.parameters;
+    let least = CLOSED * size(model);
     for item in &model.forces {
-        let section = if item.element.joint().is_some() { "joints" } else { "forces" };
+        let section = item.element.group().section();
         let element = match &item.law {
             None => item.element.clone(),
             Some(law) => law.map(&mut |tape| constant(tape, parameters)),
@@ -68,7 +77,13 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
         if item.law.is_none() {
             element.map(&mut |x| check(&[section, &item.name], *x, problems));
         }
-        if let Some((field, message)) = element.fault() {
+        let small = element.play().filter(|(_, play)| *play <= least).map(|(field, play)| {
+            let message = format!(
+                "{play} m; must be above {least:.3e} m, to which joints of a mechanism of this size are closed"
+            );
+            (field, message)
+        });
+        if let Some((field, message)) = element.fault().or(small) {
             problems.push(Problem::at(&[section, &item.name, field], message));
         }
     }

@@ -2,23 +2,21 @@
 
 use super::definition::{Definition, Entry, Value};
 use super::link::Linker;
-use crate::elements::forces::Play;
-use crate::elements::{catalogue, Acted, Constraint, Followed, ForceElement, Group};
+use crate::elements::forces::{Play, BACKLASH};
+use crate::elements::{acts_as_force, catalogue, Acted, Constraint, Followed, ForceElement, Group};
 use crate::expression::Tape;
 use std::borrow::Cow;
-
-/// The field that gives a joint its play.
-const FIELD: &str = "backlash";
 
 /// Whether an entry is a joint with play.
 pub(super) fn is_written(entry: &Entry) -> bool {
     let Some(Value::Text(kind)) = entry.get("type") else { return false };
-    let given = !matches!(entry.get(FIELD), None | Some(Value::Number(0.0)));
-    given
-        && catalogue().into_iter().any(|(group, table)| {
-            let has_play = table.fields.iter().any(|field| field.name == FIELD);
-            group == Group::Joints && table.name == kind && has_play
-        })
+    let given = !matches!(entry.get(BACKLASH), None | Some(Value::Number(0.0)));
+    acts_as_force(kind)
+        || given
+            && catalogue().into_iter().any(|(group, table)| {
+                let has_play = table.fields.iter().any(|field| field.name == BACKLASH);
+                group == Group::Joints && table.name == kind && has_play
+            })
 }
 
 /// The definition with its joints that have play after its forces.
@@ -34,12 +32,15 @@ pub(super) fn moved(definition: &Definition) -> Cow<'_, Definition> {
     Cow::Owned(definition)
 }
 
-/// Reads a joint with play. The outer option is None if there is no such type.
+/// Reads a joint that acts as a force. The outer option is None if there is no such type.
 pub(super) fn read(
     entry: &Entry,
     kind: &str,
     linker: &mut Linker<'_>,
 ) -> Option<Option<ForceElement<Tape>>> {
+    if let Some(force) = ForceElement::read(Group::Joints, kind, linker) {
+        return Some(force);
+    }
     let joint = Constraint::read(Group::Joints, kind, linker)?;
     let with_play = |joint: Constraint<Tape>| {
         joint.backlash()?;

@@ -55,9 +55,14 @@ impl<'a> Elements<'a> {
             Linker::of_numbers(group, entry, self.scope, self.bodies, self, &mut faults);
         let owner = match group {
             Group::Joints if play::is_written(entry) => {
-                Constraint::read(group, kind, &mut fields)?.map(QuantityOwner::Play)
+                match ForceElement::read(group, kind, &mut fields) {
+                    Some(force) => force.map(QuantityOwner::Force),
+                    None => Constraint::read(group, kind, &mut fields)?.map(QuantityOwner::Play),
+                }
             }
-            Group::Forces => ForceElement::read(kind, &mut fields)?.map(QuantityOwner::Force),
+            Group::Forces => {
+                ForceElement::read(group, kind, &mut fields)?.map(QuantityOwner::Force)
+            }
             _ => Constraint::read(group, kind, &mut fields)?.map(QuantityOwner::Constraint),
         };
         self.depth.set(self.depth.get() - 1);

@@ -1,9 +1,12 @@
 //! Samples of stops and contacts.
 
 use crate::samples::{curve, on};
-use kempe::elements::forces::{Contact, ContactFriction, ContactSticking, Resting, Stop};
+use kempe::elements::forces::{
+    ClearanceJoint, Contact, ContactFriction, ContactSticking, Resting, Stop,
+};
 use kempe::elements::{
-    BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, ForceElement, Rim, Side,
+    BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, ForceElement, NormalLaw, Rim,
+    Side,
 };
 use kempe::math::Local;
 
@@ -40,16 +43,46 @@ pub fn contacts() -> Vec<ForceElement> {
                 stiffness: Some(1.0),
                 exponent: 1.5,
                 damping: 0.3,
+                law: NormalLaw::HuntCrossley,
+                young: None,
+                poisson: None,
+                width: None,
                 friction: 0.2,
                 r#static: None,
                 velocity: Some(0.5),
                 restitution: None,
                 rest_speed: 1e-9,
+                wear: 0.4,
             }));
         }
     }
     all.extend(rubbing_contacts());
+    all.extend([(0.5, false), (4.0, false), (4.0, true)].map(pin_in_bush));
     all
+}
+
+/// A pin in a bush that touches at some of the random places.
+fn pin_in_bush((clearance, of_cylinders): (f64, bool)) -> ForceElement {
+    let of = |x: f64| of_cylinders.then_some(x);
+    ForceElement::ClearanceJoint(ClearanceJoint {
+        i: on(1, 0.2, -0.4),
+        j: on(2, -0.3, 0.5),
+        radius: 5.0,
+        clearance,
+        stiffness: (!of_cylinders).then_some(1.0),
+        exponent: 1.5,
+        damping: 0.3,
+        law: if of_cylinders { NormalLaw::Hertz } else { NormalLaw::HuntCrossley },
+        young: of(0.5),
+        poisson: of(0.3),
+        width: of(0.7),
+        friction: 0.2,
+        r#static: None,
+        velocity: Some(0.5),
+        restitution: None,
+        rest_speed: 1e-9,
+        wear: 0.4,
+    })
 }
 
 /// The friction of contacts that slides and sticks.
@@ -65,6 +98,9 @@ fn rubbing_contacts() -> Vec<ForceElement> {
                 stiffness: Some(1.0),
                 exponent: 1.5,
                 damping: 0.3,
+                young: None,
+                poisson: None,
+                width: None,
                 kinetic: 0.2,
                 r#static: 0.3,
             }));

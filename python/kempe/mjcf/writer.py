@@ -240,14 +240,14 @@ class _Writer:
     def _force(
         self, tendons: ET.Element, actuators: ET.Element, world: ET.Element, force: ForceInfo
     ) -> None:
-        entry = self.model.tree["forces"][force.name]
         known = _FIELDS.get(force.type)
         if known is None:
             raise ModelError(
-                f"{force.name}: forces of type {force.type} cannot be written as MJCF",
+                f"{force.name}: {force.type} cannot be written as MJCF",
                 name=force.name,
                 hint=f"{', '.join(_FIELDS)} can be",
             )
+        entry = self.model.tree["forces"][force.name]
         if other := set(entry) - known - _PLACES:
             raise ModelError(
                 f"{force.name}: {min(other)} cannot be written as MJCF", name=force.name

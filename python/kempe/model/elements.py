@@ -446,6 +446,81 @@ class Constraint(Element):
 
 
 @dataclass(frozen=True)
+class Clearance(Element):
+    """An element of type ``clearance``.
+
+    A pin around the point of j in a bush around the point of i. The pin moves within the bush
+    and touches it where the distance of the points is `clearance`. It presses, rubs and hits as
+    a `contact`. With `restitution`, bush and pin are rigid; with `stiffness`, the depth is the
+    distance of the points minus `clearance`.
+
+    Attributes:
+        i: Centre of the bush, as `body.point`.
+        j: Centre of the pin, as `body.point`.
+        radius: Radius of the bush [m].
+        clearance: Radius of the bush minus radius of the pin [m].
+        stiffness: Force in N at a depth of 1 m, as a number without a unit; in N/m for an
+            exponent of 1 [any].
+        exponent: Exponent of the depth.
+        damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
+            [s/m].
+        law: Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders
+            that of Hertz with `young`, `poisson`, `width` and `damping`.
+        young: Modulus of elasticity of both cylinders [Pa].
+        poisson: Poisson's ratio of both cylinders.
+        width: Width of the cylinders [m].
+        friction: Coefficient of friction while the pin slides.
+        static: Coefficient of friction up to which the pin sticks; friction if absent.
+        velocity: Tangential velocity at which the friction has 76 % of its full value. Without
+            it, the pin may stick [m/s].
+        restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
+            `stiffness`.
+        rest_speed: With `restitution`: rate below which the pin rests on the bush [m/s].
+        wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
+            contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
+    """
+
+    i: str
+    j: str
+    radius: Number
+    clearance: Number
+    stiffness: Number | None = None
+    exponent: Number = 1.5
+    damping: Number = 0.0
+    law: Literal["hunt_crossley", "hertz", "lankarani_nikravesh", "flores"] = "hunt_crossley"
+    young: Number | None = None
+    poisson: Number | None = None
+    width: Number | None = None
+    friction: Number = 0.0
+    static: Number | None = None
+    velocity: Number | None = None
+    restitution: Number | None = None
+    rest_speed: Number = 1e-09
+    wear: Number = 0.0
+    section: ClassVar[str] = "joints"
+    kind: ClassVar[str] = "clearance"
+    value_kinds: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "j": "point",
+        "radius": "number",
+        "clearance": "number",
+        "stiffness": "number",
+        "exponent": "number",
+        "damping": "number",
+        "law": "word",
+        "young": "number",
+        "poisson": "number",
+        "width": "number",
+        "friction": "number",
+        "static": "number",
+        "velocity": "number",
+        "restitution": "number",
+        "rest_speed": "number",
+        "wear": "number",
+    }
+
+
+@dataclass(frozen=True)
 class CoordinateDriver(Element):
     """An element of type ``coordinate_driver``.
 
@@ -888,6 +963,11 @@ class Contact(Element):
         exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
         damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
             [s/m].
+        law: Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders
+            that of Hertz with `young`, `poisson`, `width` and `damping`.
+        young: Modulus of elasticity of both cylinders [Pa].
+        poisson: Poisson's ratio of both cylinders.
+        width: Width of the cylinders [m].
         friction: Coefficient of friction while the contact slides.
         static: Coefficient of friction up to which the contact sticks; friction if absent.
         velocity: Tangential velocity at which the friction has 76 % of its full value. Without
@@ -895,6 +975,8 @@ class Contact(Element):
         restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
             `stiffness`.
         rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
+        wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
+            contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
     """
 
     i: str
@@ -904,11 +986,16 @@ class Contact(Element):
     stiffness: Number | None = None
     exponent: Number = 1.5
     damping: Number = 0.0
+    law: Literal["hunt_crossley", "hertz", "lankarani_nikravesh", "flores"] = "hunt_crossley"
+    young: Number | None = None
+    poisson: Number | None = None
+    width: Number | None = None
     friction: Number = 0.0
     static: Number | None = None
     velocity: Number | None = None
     restitution: Number | None = None
     rest_speed: Number = 1e-09
+    wear: Number = 0.0
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "contact"
     value_kinds: ClassVar[Mapping[str, str]] = {
@@ -919,11 +1006,16 @@ class Contact(Element):
         "stiffness": "number",
         "exponent": "number",
         "damping": "number",
+        "law": "word",
+        "young": "number",
+        "poisson": "number",
+        "width": "number",
         "friction": "number",
         "static": "number",
         "velocity": "number",
         "restitution": "number",
         "rest_speed": "number",
+        "wear": "number",
     }
 
 
@@ -1264,6 +1356,84 @@ class ElementMethods:
             units: Unit of each formula, `m` or `rad`.
         """
         return self._add(Constraint(name, residual=residual, units=units))
+
+    def clearance(
+        self,
+        name: str,
+        i: str,
+        j: str,
+        *,
+        radius: Number,
+        clearance: Number,
+        stiffness: Number | None = None,
+        exponent: Number = 1.5,
+        damping: Number = 0.0,
+        law: Literal["hunt_crossley", "hertz", "lankarani_nikravesh", "flores"] = "hunt_crossley",
+        young: Number | None = None,
+        poisson: Number | None = None,
+        width: Number | None = None,
+        friction: Number = 0.0,
+        static: Number | None = None,
+        velocity: Number | None = None,
+        restitution: Number | None = None,
+        rest_speed: Number = 1e-09,
+        wear: Number = 0.0,
+    ) -> Clearance:
+        """Add an element of type ``clearance`` and return it.
+
+        A pin around the point of j in a bush around the point of i. The pin moves within the bush
+        and touches it where the distance of the points is `clearance`. It presses, rubs and hits as
+        a `contact`. With `restitution`, bush and pin are rigid; with `stiffness`, the depth is the
+        distance of the points minus `clearance`.
+
+        Args:
+            name: its name in the model.
+            i: Centre of the bush, as `body.point`.
+            j: Centre of the pin, as `body.point`.
+            radius: Radius of the bush [m].
+            clearance: Radius of the bush minus radius of the pin [m].
+            stiffness: Force in N at a depth of 1 m, as a number without a unit; in N/m for an
+                exponent of 1 [any].
+            exponent: Exponent of the depth.
+            damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
+                [s/m].
+            law: Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders
+                that of Hertz with `young`, `poisson`, `width` and `damping`.
+            young: Modulus of elasticity of both cylinders [Pa].
+            poisson: Poisson's ratio of both cylinders.
+            width: Width of the cylinders [m].
+            friction: Coefficient of friction while the pin slides.
+            static: Coefficient of friction up to which the pin sticks; friction if absent.
+            velocity: Tangential velocity at which the friction has 76 % of its full value. Without
+                it, the pin may stick [m/s].
+            restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
+                `stiffness`.
+            rest_speed: With `restitution`: rate below which the pin rests on the bush [m/s].
+            wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
+                contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
+        """
+        return self._add(
+            Clearance(
+                name,
+                i=i,
+                j=j,
+                radius=radius,
+                clearance=clearance,
+                stiffness=stiffness,
+                exponent=exponent,
+                damping=damping,
+                law=law,
+                young=young,
+                poisson=poisson,
+                width=width,
+                friction=friction,
+                static=static,
+                velocity=velocity,
+                restitution=restitution,
+                rest_speed=rest_speed,
+                wear=wear,
+            )
+        )
 
     def coordinate_driver(
         self,
@@ -1654,11 +1824,16 @@ class ElementMethods:
         stiffness: Number | None = None,
         exponent: Number = 1.5,
         damping: Number = 0.0,
+        law: Literal["hunt_crossley", "hertz", "lankarani_nikravesh", "flores"] = "hunt_crossley",
+        young: Number | None = None,
+        poisson: Number | None = None,
+        width: Number | None = None,
         friction: Number = 0.0,
         static: Number | None = None,
         velocity: Number | None = None,
         restitution: Number | None = None,
         rest_speed: Number = 1e-09,
+        wear: Number = 0.0,
     ) -> Contact:
         """Add an element of type ``contact`` and return it.
 
@@ -1683,6 +1858,11 @@ class ElementMethods:
             exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
             damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
                 [s/m].
+            law: Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders
+                that of Hertz with `young`, `poisson`, `width` and `damping`.
+            young: Modulus of elasticity of both cylinders [Pa].
+            poisson: Poisson's ratio of both cylinders.
+            width: Width of the cylinders [m].
             friction: Coefficient of friction while the contact slides.
             static: Coefficient of friction up to which the contact sticks; friction if absent.
             velocity: Tangential velocity at which the friction has 76 % of its full value. Without
@@ -1690,6 +1870,8 @@ class ElementMethods:
             restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
                 `stiffness`.
             rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
+            wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
+                contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
         """
         return self._add(
             Contact(
@@ -1701,10 +1883,15 @@ class ElementMethods:
                 stiffness=stiffness,
                 exponent=exponent,
                 damping=damping,
+                law=law,
+                young=young,
+                poisson=poisson,
+                width=width,
                 friction=friction,
                 static=static,
                 velocity=velocity,
                 restitution=restitution,
                 rest_speed=rest_speed,
+                wear=wear,
             )
         )

@@ -298,11 +298,14 @@ fn not_finite(t: f64, law: Option<LawFault>) -> (String, &'static str) {
 fn remedy(fault: &LawFault) -> &'static str {
     match fault.table {
         Some(_) => TABLE_ENDS,
+        None if !fault.written => {
+            "the state is beyond its range; reduce its load or change its fields"
+        }
         None => "write a formula that has a value during the whole run, or end the run before",
     }
 }
 
-fn law_ends(LawFault { law, table }: &LawFault) -> String {
+fn law_ends(LawFault { law, table, .. }: &LawFault) -> String {
     match table {
         Some(table) => format!("the law {law} has no value there: {table}"),
         None => format!("the law {law} has no finite value there"),

@@ -1,10 +1,11 @@
 //! Finds the law that has no value if a run fails because the motion is not finite.
 
 use crate::elements::{catalogue, Group};
+use crate::equations::forces::{self, Acting};
 use crate::equations::held;
 use crate::equations::kinematics::Motions;
 use crate::expression::Tape;
-use crate::math::Listed;
+use crate::math::{Listed, Wrench};
 use crate::model::{Model, Variable};
 
 /// Largest distance from the failure at which a law is evaluated, relative to 1 s + |t|. The steps of an integrator
@@ -13,8 +14,10 @@ const NEAR: f64 = 1e-5;
 
 /// A law without a value.
 pub(super) struct LawFault {
-    /// The law: `torque of drive`.
+    /// The law: `torque of drive`, or `of contact touch` for that of an element itself.
     pub law: String,
+    /// Whether the law is a formula.
+    pub written: bool,
     /// The table that the law evaluates outside its range.
     pub table: Option<String>,
 }
@@ -59,12 +62,28 @@ fn undefined_at(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Option<LawFaul
     let forces = model.forces.iter().filter_map(|item| {
         let mut all = Vec::new();
         item.law.as_ref()?.map(&mut |tape| all.push(without(tape)));
-        Some((Group::Forces, item.element.kind(), item.element.scalars(), &item.name, all))
+        Some((item.element.group(), item.element.kind(), item.element.scalars(), &item.name, all))
     });
-    constraints.chain(forces).find_map(|(group, kind, scalars, name, all)| {
+    let written = constraints.chain(forces).find_map(|(group, kind, scalars, name, all)| {
         let (k, table) = all.into_iter().enumerate().find_map(|(k, found)| Some((k, found?)))?;
         let law = format!("{} of {name}", fields(group, kind, &scalars).get(k)?);
-        Some(LawFault { law, table })
+        Some(LawFault { law, written: true, table })
+    });
+    written.or_else(|| {
+        let acting = Acting { z, lam: None, t };
+        let has_no_value = |k: &usize| {
+            let (item, mut finite) = (&model.forces[*k], true);
+            let known = item.law.is_none() && item.states.len() <= z.len();
+            let look =
+                |_, _, w: Wrench<f64>| finite &= (w.force.x + w.force.y + w.torque).is_finite();
+            if known {
+                forces::each_wrench(model, *k, &motions, acting, look);
+            }
+            !finite
+        };
+        let item = &model.forces[(0..model.forces.len()).find(has_no_value)?];
+        let law = format!("of {} {}", item.element.kind(), item.name);
+        Some(LawFault { law, written: false, table: None })
     })
 }
 

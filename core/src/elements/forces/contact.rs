@@ -1,26 +1,22 @@
 //! Contact of a point or circle of body i with a curve of body j.
 //!
 //! The gap is the distance of Pᵢ from the nearest point C(u) of the curve, minus the radius. The distance is positive
-//! on the `side` of the curve. For a compliant contact with the depth δ = -gap, N = max(0, k δⁿ (1 + c δ̇)) (n = 1.5:
-//! Hertz; the factor with c: Hunt and Crossley). N acts at C(u), on body j along -ν and on body i along ν, where ν is
-//! the normal towards the side. With v₀, the friction force on body i at C(u) is -μ N tanh(v/v₀) along growing u, with the
-//! tangential velocity v of body i relative to body j. Without v₀, the friction slides and sticks; it is an element of its
-//! own, the companion of the contact.
+//! on the `side` of the curve. `elements/pressing.rs` contains the forces.
 //!
 //! With a coefficient of restitution e, there is no depth. If the gap closes at the rate ġ, it opens at the rate -e ġ
 //! after an impact of the whole mechanism, or the bodies rest on each other, held by the equation gap(q) = 0.
 //!
 //! An open curve ends with corners. The material of the body is on the other side of the curve.
 
-use crate::elements::hertz::{self, Hertz, Normal, SWITCHES};
-use crate::elements::touch::{CurveTouch, TouchPoint};
+use crate::elements::hertz::Compliance;
+use crate::elements::pressing::{Amount, Presses, Pressing};
+use crate::elements::touch::CurveTouch;
 use crate::elements::{
-    contact, element, At, Attachment, Behaviour, BodyId, Clearance, Constraint, ContactFriction,
-    Equation, Force, ForceElement, Joint, Mark, Measured, Nature, Part, ResultQuantity,
-    SceneSymbol, Situation, SymbolEnd, Wrenches,
+    contact, element, At, Attachment, BodyId, Clearance, Equation, Group, Joint, Mark, SceneSymbol,
+    SymbolEnd,
 };
-use crate::expression::Tape;
-use crate::math::{Local, Real, Vec2};
+use crate::math::{Local, Real};
+use std::borrow::Cow;
 
 element! {
     /// Contact of a point or circle of body i with a curve of body j. The gap is the distance of
@@ -46,6 +42,15 @@ element! {
         exponent: number = 1.5,
         /// Damping factor: the force is multiplied by 1 + damping × rate of the depth.
         damping: number [s/m] = 0.0,
+        /// Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders that of Hertz with
+        /// `young`, `poisson`, `width` and `damping`.
+        law: normal_law = "hunt_crossley",
+        /// Modulus of elasticity of both cylinders.
+        young: optional_number [Pa],
+        /// Poisson's ratio of both cylinders.
+        poisson: optional_number,
+        /// Width of the cylinders.
+        width: optional_number [m],
         /// Coefficient of friction while the contact slides.
         friction: number = 0.0,
         /// Coefficient of friction up to which the contact sticks; friction if absent.
@@ -57,6 +62,9 @@ element! {
         restitution: optional_number,
         /// With `restitution`: rate below which the bodies rest on each other.
         rest_speed: number [m/s] = 1e-9,
+        /// Worn volume for each newton and each metre of sliding (Archard); for compliant contacts. The
+        /// states sliding_distance and wear_volume then begin at 0.
+        wear: number [m^2/N] = 0.0,
     }
 }
 
@@ -74,187 +82,47 @@ element! {
     }
 }
 
-impl<S: Real> Contact<S> {
-    fn touch(&self) -> CurveTouch<'_, S> {
-        let Self { ref i, ref curve, radius, side, .. } = *self;
-        CurveTouch { i, curve, radius, side }
-    }
+impl Presses for Contact {
+    const GROUP: Group = Group::Forces;
 
-    /// The state at the place of action.
-    fn point(&self, at: &Situation<'_, S>) -> TouchPoint<S> {
-        match self.sticks() {
-            true => self.touch().at_pitch(at),
-            false => self.touch().at_foot(at),
+    fn pressing<S: Amount>(e: &Contact<S>) -> Pressing<'_, S> {
+        Pressing {
+            i: &e.i,
+            curve: Cow::Borrowed(&e.curve),
+            radius: e.radius.clone(),
+            side: e.side,
+            law: e.law,
+            compliance: Compliance {
+                stiffness: e.stiffness.clone(),
+                exponent: e.exponent.clone(),
+                damping: e.damping.clone(),
+                young: e.young.clone(),
+                poisson: e.poisson.clone(),
+                width: e.width.clone(),
+            },
+            friction: e.friction.clone(),
+            r#static: e.r#static.clone(),
+            velocity: e.velocity.clone(),
+            restitution: e.restitution.clone(),
+            rest_speed: e.rest_speed.clone(),
+            wear: e.wear.clone(),
         }
     }
-}
 
-impl<S> Contact<S> {
-    /// Whether it may have friction that sticks.
-    fn sticks(&self) -> bool {
-        self.velocity.is_none() && self.curve.is_closed_form()
-    }
-}
-
-/// The law of a compliant contact.
-fn law<S: Real>(e: &Contact<S>) -> Option<Hertz<S>> {
-    let (exponent, damping) = (e.exponent, e.damping);
-    e.stiffness.map(|stiffness| Hertz { stiffness, exponent, damping })
-}
-
-/// The normal force; None if it is zero.
-fn normal<S: Real>(
-    e: &Contact<S>,
-    at: &Situation<'_, S>,
-    touch: &TouchPoint<S>,
-) -> Option<Normal<S>> {
-    match law(e) {
-        Some(law) => law.normal(at, 0, touch.depth()),
-        None if at.mode.holds() => Some(Normal { elastic: -at.multiplier, damping: S::zero() }),
-        None => None,
-    }
-}
-
-/// The friction force on body j along growing u.
-fn friction<S: Real>(e: &Contact<S>, touch: &TouchPoint<S>, normal: S) -> Option<S> {
-    let part = (touch.sliding / e.velocity?).tanh();
-    Some(e.friction * normal * part)
-}
-
-/// Whether there is certainly no force, because the bodies were apart at the beginning of the step, or no equation
-/// holds them.
-fn is_free<S: Real>(e: &Contact<S>, at: &Situation<'_, S>) -> bool {
-    match e.stiffness {
-        Some(_) => at.held.pieces.get(at.held.first).is_some_and(|piece| *piece < 0.0),
-        None => !at.mode.holds(),
-    }
-}
-
-impl Force for Contact {
-    const PARTS: &'static [Part] = &[
-        Part { name: "stiffness", nature: Nature::Conservative },
-        Part { name: "damping", nature: Nature::Dissipative },
-        Part { name: "friction", nature: Nature::Dissipative },
-    ];
-    const TOUCHES_OR_RUBS: bool = true;
-    const MEASURED: &'static [Measured] = &[Measured::GAP];
-
-    fn bodies<S>(e: &Contact<S>) -> Vec<BodyId> {
-        vec![e.i.body, e.curve.on.body]
+    fn pair<S>(e: &Contact<S>) -> [BodyId; 2] {
+        [e.i.body, e.curve.on.body]
     }
 
-    fn has_formulas<S>(e: &Contact<S>) -> bool {
+    fn is_closed_form<S>(e: &Contact<S>) -> bool {
         e.curve.is_closed_form()
     }
 
-    fn measure<S: Real>(e: &Contact<S>, at: &At<'_, S>, out: &mut [S]) {
-        out[0] = e.touch().gap(at.i(), at.j());
+    fn is_compliant<S>(e: &Contact<S>) -> bool {
+        e.restitution.is_none()
     }
 
-    fn arms<S: Real>(e: &Contact<S>, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {
-        Some(e.point(at).arms)
-    }
-
-    fn action<S: Real>(e: &Contact<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
-        if is_free(e, at) {
-            return;
-        }
-        let touch = e.point(at);
-        let Some(normal) = normal(e, at, &touch) else { return };
-        let mut put = |part: usize, force: Vec2<S>| {
-            for (body, wrench) in touch.wrenches(force).into_iter().enumerate() {
-                out.put(part, body, wrench);
-            }
-        };
-        put(0, touch.away.scale(normal.elastic));
-        put(1, touch.away.scale(normal.damping));
-        if let Some(friction) = friction(e, &touch, normal.sum()) {
-            put(2, -touch.along.scale(friction));
-        }
-    }
-
-    fn switch_count<S>(e: &Contact<S>) -> usize {
-        if e.stiffness.is_some() {
-            SWITCHES
-        } else {
-            0
-        }
-    }
-
-    fn switches<S: Real>(e: &Contact<S>, at: &Situation<'_, S>, out: &mut [S]) {
-        if let Some(law) = law(e) {
-            law.switches(e.point(at).depth(), out);
-        }
-    }
-
-    fn potential<S: Real>(e: &Contact<S>, at: &Situation<'_, S>) -> S {
-        match law(e) {
-            Some(law) if !is_free(e, at) => law.potential(at, 0, -Self::threshold(e, at)),
-            _ => S::zero(),
-        }
-    }
-
-    fn result_quantities<S>(_: &Contact<S>) -> &'static [ResultQuantity] {
-        &[
-            ResultQuantity { name: "force", unit: "N", negative: None },
-            ResultQuantity { name: "tangential", unit: "N", negative: None },
-            ResultQuantity { name: "sliding", unit: "m/s", negative: None },
-            ResultQuantity { name: "sticking", unit: "", negative: None },
-        ]
-    }
-
-    /// N, the friction force on body j along growing u, and the sliding velocity. Friction that sticks replaces the
-    /// last three.
-    fn results<S: Real>(e: &Contact<S>, at: &Situation<'_, S>, out: &mut [S]) {
-        out.fill(S::zero());
-        let touch = e.point(at);
-        out[2] = touch.sliding;
-        if let Some(normal) = normal(e, at, &touch).map(Normal::sum) {
-            out[0] = normal;
-            out[1] = friction(e, &touch, normal).unwrap_or(S::zero());
-        }
-    }
-
-    fn behaviour<S: Real>(e: &Contact<S>) -> Option<Behaviour<S>> {
-        let (rest_speed, exponent, damping) = (e.rest_speed, e.exponent, e.damping);
-        let compliant = |stiffness| Behaviour::Compliant { stiffness, exponent, damping };
-        let impacts = |restitution| Behaviour::Impacts { restitution, rest_speed };
-        e.restitution.map(impacts).or(e.stiffness.map(compliant))
-    }
-
-    fn threshold<S: Real>(e: &Contact<S>, at: &Situation<'_, S>) -> S {
-        e.touch().gap(&at.i().pose, &at.j().pose)
-    }
-
-    fn companion(e: &Contact<Tape>) -> Option<ForceElement<Tape>> {
-        let most = e.r#static.as_ref().unwrap_or(&e.friction);
-        if !e.sticks() || most.constant() == Some(0.0) {
-            return None;
-        }
-        let (i, curve, radius, side) = (e.i.clone(), e.curve.clone(), e.radius.clone(), e.side);
-        let (exponent, damping) = (e.exponent.clone(), e.damping.clone());
-        let (stiffness, kinetic) = (e.stiffness.clone(), e.friction.clone());
-        let r#static = e.r#static.clone().unwrap_or_else(|| kinetic.clone());
-        Some(ForceElement::ContactFriction(ContactFriction {
-            i,
-            curve,
-            radius,
-            side,
-            stiffness,
-            exponent,
-            damping,
-            kinetic,
-            r#static,
-        }))
-    }
-
-    fn clearances(e: &Contact) -> Vec<Clearance<'_>> {
-        vec![Clearance::Curve { i: &e.i, curve: &e.curve, side: e.side, radius: e.radius }]
-    }
-
-    fn holding(e: &Contact<Tape>, _: f64, _: f64) -> Option<Constraint<Tape>> {
-        let (i, curve, radius) = (e.i.clone(), e.curve.clone(), e.radius.clone());
-        Some(Constraint::Resting(Resting { i, curve, radius, side: e.side }))
+    fn clearance(e: &Contact) -> Clearance<'_> {
+        Clearance::Curve { i: &e.i, curve: &e.curve, side: e.side, radius: e.radius }
     }
 
     fn symbols(e: &Contact) -> Vec<SceneSymbol> {
@@ -266,33 +134,12 @@ impl Force for Contact {
     }
 
     fn fault(e: &Contact) -> Option<(&'static str, String)> {
-        let refuse = |field, message: &str| Some((field, message.to_string()));
+        if e.radius < 0.0 {
+            return Some(("radius", "must not be negative".to_string()));
+        }
         let curve = &e.curve.on.curve;
-        let most = e.r#static.unwrap_or(e.friction);
-        match e.velocity {
-            _ if e.radius < 0.0 => return refuse("radius", "must not be negative"),
-            _ if e.friction < 0.0 => return refuse("friction", "must not be negative"),
-            _ if most < e.friction => return refuse("static", "must not be below friction"),
-            None if most > 0.0 && !e.curve.is_closed_form() => {
-                let message = "friction that sticks acts on lines and circles; on another curve give velocity, such as \
-                               0.01, and stiffness";
-                return refuse("friction", message);
-            }
-            Some(velocity) if velocity <= 0.0 => return refuse("velocity", "must be positive"),
-            Some(_) if e.restitution.is_some() => {
-                return refuse("velocity", "not together with restitution; remove it");
-            }
-            Some(_) if e.r#static.is_some() => {
-                return refuse("static", "belongs to friction that sticks; remove velocity");
-            }
-            _ => {}
-        }
-        if curve.fault().is_none() {
-            if let Some(message) = contact::cusp(curve) {
-                return Some(("curve", message));
-            }
-        }
-        hertz::fault(e.stiffness, [e.exponent, 1.5], e.damping, [e.restitution, Some(e.rest_speed)])
+        let cusp = curve.fault().is_none().then(|| contact::cusp(curve)).flatten();
+        cusp.map(|message| ("curve", message))
     }
 }
 

@@ -8,7 +8,7 @@
 //!
 //! The friction is a part of a `contact`: it has the name of the contact, and no file contains it.
 
-use crate::elements::hertz::{Hertz, Normal};
+use crate::elements::hertz::{Compliance, Normal};
 use crate::elements::touch::{CurveTouch, TouchPoint};
 use crate::elements::{
     element, At, Attachment, Behaviour, BodyId, Constraint, Equation, Force, Joint, Mode, Nature,
@@ -34,6 +34,12 @@ element! {
         exponent: number,
         /// Damping factor.
         damping: number [s/m],
+        /// Modulus of elasticity of cylinders.
+        young: optional_number [Pa],
+        /// Their ratio of Poisson.
+        poisson: optional_number,
+        /// Their width.
+        width: optional_number [m],
         /// Coefficient of friction while the contact slides.
         kinetic: number,
         /// Coefficient of friction up to which the contact sticks.
@@ -66,10 +72,10 @@ impl<S: Real> ContactFriction<S> {
     /// N with its derivatives with respect to the reaction, whose first component is the multiplier of a rigid
     /// contact.
     fn normal(&self, at: &Situation<'_, S>, point: &TouchPoint<S>) -> (S, Wrench<S>) {
-        let Self { stiffness, exponent, damping, .. } = *self;
-        match stiffness {
-            Some(stiffness) => {
-                let law = Hertz { stiffness, exponent, damping };
+        let Self { stiffness, exponent, damping, young, poisson, width, .. } = *self;
+        let law = Compliance { stiffness, exponent, damping, young, poisson, width };
+        match law.law(self.touch().pitch()) {
+            Some(law) => {
                 let normal = law.normal(at, 0, point.depth());
                 (normal.map_or(S::zero(), Normal::sum), Wrench::zero())
             }

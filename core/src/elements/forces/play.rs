@@ -10,7 +10,7 @@ use crate::elements::declare::{Element, Table};
 use crate::elements::wheels::TANGENTIAL;
 use crate::elements::{
     acted, holding, Acted, At, Backlash, Behaviour, BodyId, Clearance, Constraint, Followed, Force,
-    Kind, Measured, Nature, Part, ResultQuantity, SceneSymbol, Situation, Source, Wrenches,
+    Group, Kind, Measured, Nature, Part, ResultQuantity, SceneSymbol, Situation, Source, Wrenches,
 };
 use crate::expression::Tape;
 use crate::math::{Listed, Real, Vec2, Wrench};
@@ -23,6 +23,9 @@ pub struct Play<S = f64> {
     /// The opposite of its equation.
     pub coordinate: Acted<S>,
 }
+
+/// The field that gives a joint its play.
+pub const BACKLASH: &str = "backlash";
 
 /// Rate below which the flanks rest on each other, m/s.
 const REST_SPEED: f64 = 1e-9;
@@ -74,6 +77,7 @@ impl<S: Real> Play<S> {
 
 impl Force for Play {
     const PARTS: &'static [Part] = &[Part { name: "teeth", nature: Nature::Conservative }];
+    const GROUP: Group = Group::Joints;
     const MEASURED: &'static [Measured] = &Measured::OF_PLAY;
     const FOLLOWS: bool = true;
     const TOUCHES_OR_RUBS: bool = true;
@@ -84,6 +88,10 @@ impl Force for Play {
 
     fn joint<S>(e: &Play<S>) -> Option<&Constraint<S>> {
         Some(&e.joint)
+    }
+
+    fn play(e: &Play) -> Option<(&'static str, f64)> {
+        Some((BACKLASH, e.backlash().whole))
     }
 
     fn measure<S: Real>(e: &Play<S>, at: &At<'_, S>, out: &mut [S]) {
@@ -148,7 +156,7 @@ impl Force for Play {
         let of_joint = e.joint.fault();
         if of_joint.is_none() && whole <= 0.0 {
             let message = format!("{whole} m; must be > 0; without play, remove the field");
-            return Some(("backlash", message));
+            return Some((BACKLASH, message));
         }
         let possible = (0.0..=1.0).contains(&restitution);
         let of_hits =

@@ -10,7 +10,7 @@
 //!
 //! The gap is the smaller of s - lower and upper - s. It is positive between the limits.
 
-use crate::elements::hertz::{self, Depth, Hertz, SWITCHES};
+use crate::elements::hertz::{self, Depth, Elastic, Hertz, SWITCHES};
 use crate::elements::{
     element, holding, Acted, At, Behaviour, BodyId, Clearance, Constraint, Followed, Force, Mark,
     Measured, Nature, Part, QuantityKind, ResultQuantity, SceneSymbol, Situation, SymbolEnd,
@@ -81,7 +81,7 @@ fn gap<S: Real>(e: &Stop<S>, s: S) -> S {
 /// The law of a compliant stop.
 fn law<S: Real>(e: &Stop<S>) -> Option<Hertz<S>> {
     let (exponent, damping) = (e.exponent, e.damping);
-    e.stiffness.map(|stiffness| Hertz { stiffness, exponent, damping })
+    e.stiffness.map(|stiffness| Hertz { elastic: Elastic::Power(stiffness, exponent), damping })
 }
 
 /// The efforts of stiffness and damping.

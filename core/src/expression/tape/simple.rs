@@ -1,6 +1,8 @@
 //! Tapes of simple laws, which are composed without a text.
 
-use super::{Binary, Instruction, Symbol, Tape};
+use super::{Binary, Instruction, Symbol, Tape, Unary};
+use crate::math::Listed;
+use std::ops::{Neg, Sub};
 
 impl Tape {
     /// A tape that consists of one symbol.
@@ -40,5 +42,39 @@ impl Tape {
     pub fn times(mut self, by: f64) -> Self {
         self.code.extend([Instruction::Constant(by), Instruction::Binary(Binary::Multiply)]);
         Self { operands: self.operands.max(2), ..self }
+    }
+}
+
+impl Neg for Tape {
+    type Output = Self;
+
+    fn neg(mut self) -> Self {
+        self.code.push(Instruction::Unary(Unary::Negate));
+        self
+    }
+}
+
+impl Sub for Tape {
+    type Output = Self;
+
+    /// The tape with more operands comes first, so that the sum seldom needs more operands than it.
+    fn sub(self, other: Self) -> Self {
+        let other = -other;
+        let (mut sum, last) = match self.operands < other.operands {
+            true => (other, self),
+            false => (self, other),
+        };
+        let known = sum.tables.len();
+        let moved = last.code.into_iter().map(|code| match code {
+            Instruction::Table(k) => Instruction::Table(known + k),
+            code => code,
+        });
+        sum.code.extend(moved.chain([Instruction::Binary(Binary::Add)]));
+        sum.operands = sum.operands.max(last.operands + 1);
+        let new = last.symbols.into_iter().filter(|own| !sum.symbols.contains(own)).list();
+        sum.symbols.extend(new);
+        sum.tables.extend(last.tables);
+        sum.count_switches();
+        sum
     }
 }

@@ -101,7 +101,8 @@ class Labelled:
 
     @property
     def _full(self) -> Floats:
-        return self.values.reshape(len(self.rows), -1)
+        # a model without constraints has a Jacobian without rows
+        return self.values.reshape(len(self.rows), -1 if self.rows else len(self.columns))
 
     def _shown(self, full: Floats) -> Floats:
         """A matrix (rows, columns) in display units."""

@@ -30,12 +30,15 @@ pub(super) fn may_rub(
     }
 }
 
-/// The slack of the gap of a compliant contact whose friction does not act.
-pub(super) fn open_slack(model: &Model, place: &StateAt<'_>, force: usize) -> f64 {
-    contact_of(model, force).filter(|contact| !is_contact(model, *contact)).map_or(0.0, |contact| {
+/// The mode of friction that does not act. The gap of a compliant contact that has just separated may still be negative,
+/// which its slack allows.
+pub(super) fn open(model: &Model, place: &StateAt<'_>, force: usize) -> ForceMode {
+    let contact = contact_of(model, force).filter(|contact| !is_contact(model, *contact));
+    let slack = contact.map_or(0.0, |contact| {
         let gap = place.thresholds(model, &[contact])[0];
         place.rounding(model, contact) + (-gap).max(0.0)
-    })
+    });
+    ForceMode { slack, ..ForceMode::new(force, Mode::Free) }
 }
 
 /// Whether a force may hold together with others. The friction of a rigid contact needs the contact at rest.

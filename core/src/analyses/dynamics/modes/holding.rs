@@ -51,9 +51,7 @@ pub(super) fn decide(
     let (mut modes, mut candidates) = (Vec::new(), Vec::new());
     for ((k, threshold), holders) in all.iter().zip(&thresholds).zip(&holders) {
         if !companions::may_rub(model, place, *k, (before, &rest, fired)) {
-            // the gap of a contact that has just separated may still be negative
-            let slack = companions::open_slack(model, place, *k);
-            modes.push(ForceMode { slack, ..ForceMode::new(*k, Mode::Free) });
+            modes.push(companions::open(model, place, *k));
             continue;
         }
         let (free, candidate) = match model.forces[*k].element.behaviour() {

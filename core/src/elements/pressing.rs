@@ -1,0 +1,374 @@
+//! A circle of body i that presses on a curve of body j: the physics that all elements with such a contact share.
+//!
+//! For a compliant contact with the depth δ = -gap, the normal force N follows from the law in `hertz.rs`. N acts at the
+//! nearest point C(u) of the curve, on body j along -ν and on body i along ν, where ν is the normal away from body j.
+//! With v₀, the friction force on body i at C(u) is -μ N tanh(v/v₀) along growing u, with the tangential velocity v of
+//! body i relative to body j. Without v₀, the friction slides and sticks; it is an element of its own, the companion of
+//! the contact. With a coefficient of restitution, there is no depth, and N is the multiplier of the contact at rest.
+
+use super::hertz::{Compliance, Hertz, Normal, SWITCHES};
+use super::touch::{CurveTouch, TouchPoint};
+use super::{
+    At, Behaviour, BodyId, Clearance, Constraint, ContactFriction, Element, Force, ForceElement,
+    Group, Measured, Nature, NormalLaw, OwnState, Part, PointOn, Required, Resting, ResultQuantity,
+    Rim, SceneSymbol, Side, Situation, Wrenches,
+};
+use crate::expression::Tape;
+use crate::math::{Real, Vec2};
+use std::borrow::Cow;
+use std::ops::{Neg, Sub};
+
+/// A contact, as an element describes it.
+pub struct Pressing<'e, S: Clone> {
+    /// The centre of the circle.
+    pub i: &'e PointOn<S>,
+    /// The curve.
+    pub curve: Cow<'e, Rim<S>>,
+    /// Radius of the circle.
+    pub radius: S,
+    /// The side of the curve.
+    pub side: Side,
+    /// The law of a compliant contact.
+    pub law: NormalLaw,
+    /// Its coefficients.
+    pub compliance: Compliance<S>,
+    /// μ while the contact slides.
+    pub friction: S,
+    /// μ up to which it sticks.
+    pub r#static: Option<S>,
+    /// v₀, m/s.
+    pub velocity: Option<S>,
+    /// e of a rigid contact.
+    pub restitution: Option<S>,
+    /// Rate below which a rigid contact rests, m/s.
+    pub rest_speed: S,
+    /// Worn volume for each newton and metre, m²/N.
+    pub wear: S,
+}
+
+/// A number of a model, or its formula.
+pub trait Amount: Clone + Neg<Output = Self> + Sub<Output = Self> {}
+
+impl<S: Clone + Neg<Output = S> + Sub<Output = S>> Amount for S {}
+
+/// An element that is such a contact.
+pub trait Presses: Element {
+    /// The section of the element in a file.
+    const GROUP: Group;
+
+    /// The contact.
+    fn pressing<S: Amount>(e: &Self::Over<S>) -> Pressing<'_, S>;
+
+    /// The bodies i and j.
+    fn pair<S>(e: &Self::Over<S>) -> [BodyId; 2];
+
+    /// Whether the nearest point of the curve has a closed form.
+    fn is_closed_form<S>(e: &Self::Over<S>) -> bool;
+
+    /// Whether it is compliant.
+    fn is_compliant<S>(e: &Self::Over<S>) -> bool;
+
+    /// The distance of the contact.
+    fn clearance(e: &Self::Over<f64>) -> Clearance<'_>;
+
+    /// See [`Force::play`].
+    fn play(e: &Self::Over<f64>) -> Option<(&'static str, f64)> {
+        let _ = e;
+        None
+    }
+
+    /// See [`Force::requires`].
+    fn requires(e: &Self::Over<f64>, at: &At<'_, f64>) -> Option<Required<f64>> {
+        let _ = (e, at);
+        None
+    }
+
+    /// The symbols in a drawing.
+    fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol>;
+
+    /// A field of the geometry with an impossible value, and the reason.
+    fn fault(e: &Self::Over<f64>) -> Option<(&'static str, String)>;
+}
+
+impl<S: Clone> Pressing<'_, S> {
+    /// Whether it may have friction that sticks.
+    fn sticks(&self) -> bool {
+        self.velocity.is_none() && self.curve.is_closed_form()
+    }
+}
+
+impl<S: Real> Pressing<'_, S> {
+    fn touch(&self) -> CurveTouch<'_, S> {
+        let Self { i, ref curve, radius, side, .. } = *self;
+        CurveTouch { i, curve, radius, side }
+    }
+
+    /// The state at the place of action.
+    fn point(&self, at: &Situation<'_, S>) -> TouchPoint<S> {
+        match self.sticks() {
+            true => self.touch().at_pitch(at),
+            false => self.touch().at_foot(at),
+        }
+    }
+
+    /// The law of a compliant contact.
+    fn law(&self) -> Option<Hertz<S>> {
+        self.compliance.law(self.touch().pitch())
+    }
+
+    /// The normal force; None if it is zero.
+    fn normal(&self, at: &Situation<'_, S>, touch: &TouchPoint<S>) -> Option<Normal<S>> {
+        match self.law() {
+            Some(law) => law.normal(at, 0, touch.depth()),
+            None if at.mode.holds() => Some(Normal { elastic: -at.multiplier, damping: S::zero() }),
+            None => None,
+        }
+    }
+
+    /// The friction force on body j along growing u.
+    fn friction(&self, touch: &TouchPoint<S>, normal: S) -> Option<S> {
+        let part = (touch.sliding / self.velocity?).tanh();
+        Some(self.friction * normal * part)
+    }
+
+    /// Whether there is certainly no force, because the bodies were apart at the beginning of the step, or no equation
+    /// holds them.
+    fn is_free(&self, at: &Situation<'_, S>) -> bool {
+        match self.restitution {
+            None => at.held.pieces.get(at.held.first).is_some_and(|piece| *piece < 0.0),
+            Some(_) => !at.mode.holds(),
+        }
+    }
+
+    fn gap(&self, at: &Situation<'_, S>) -> S {
+        self.touch().gap(&at.i().pose, &at.j().pose)
+    }
+
+    fn put(&self, at: &Situation<'_, S>, out: &mut dyn Wrenches<S>) {
+        if self.is_free(at) {
+            return;
+        }
+        let touch = self.point(at);
+        let Some(normal) = self.normal(at, &touch) else { return };
+        let mut put = |part: usize, force: Vec2<S>| {
+            for (body, wrench) in touch.wrenches(force).into_iter().enumerate() {
+                out.put(part, body, wrench);
+            }
+        };
+        put(0, touch.away.scale(normal.elastic));
+        put(1, touch.away.scale(normal.damping));
+        if let Some(friction) = self.friction(&touch, normal.sum()) {
+            put(2, -touch.along.scale(friction));
+        }
+    }
+
+    /// The rates of the length of sliding and of the worn volume (Archard, *Contact and rubbing of flat surfaces*, J. Appl.
+    /// Phys. 24 (1953) 981).
+    fn wearing(&self, at: &Situation<'_, S>) -> [S; 2] {
+        let touch = self.point(at);
+        let Some(normal) = self.normal(at, &touch) else { return [S::zero(); 2] };
+        let speed = at.choose(0, -touch.gap, touch.sliding.abs(), S::zero());
+        [speed, self.wear * normal.sum() * speed]
+    }
+
+    fn results(&self, at: &Situation<'_, S>, out: &mut [S]) {
+        out.fill(S::zero());
+        let touch = self.point(at);
+        out[2] = touch.sliding;
+        if let Some(normal) = self.normal(at, &touch).map(Normal::sum) {
+            out[0] = normal;
+            out[1] = self.friction(&touch, normal).unwrap_or(S::zero());
+        }
+    }
+}
+
+impl Pressing<'_, Tape> {
+    fn companion(&self) -> Option<ForceElement<Tape>> {
+        let most = self.r#static.as_ref().unwrap_or(&self.friction);
+        if !self.sticks() || most.constant() == Some(0.0) {
+            return None;
+        }
+        Some(ForceElement::ContactFriction(ContactFriction {
+            i: self.i.clone(),
+            curve: Rim::clone(&self.curve),
+            radius: self.radius.clone(),
+            side: self.side,
+            stiffness: self.compliance.stiffness.clone(),
+            exponent: self.compliance.exponent.clone(),
+            damping: self.compliance.damping.clone(),
+            young: self.compliance.young.clone(),
+            poisson: self.compliance.poisson.clone(),
+            width: self.compliance.width.clone(),
+            kinetic: self.friction.clone(),
+            r#static: most.clone(),
+        }))
+    }
+}
+
+impl Pressing<'_, f64> {
+    /// A field of the law of the contact with an impossible value.
+    fn fault(&self) -> Option<(&'static str, String)> {
+        let refuse = |field, message: &str| Some((field, message.to_string()));
+        let most = self.r#static.unwrap_or(self.friction);
+        match self.velocity {
+            _ if self.wear < 0.0 => refuse("wear", "must not be negative"),
+            _ if self.wear > 0.0 && self.restitution.is_some() => {
+                let message = "the load of a contact with restitution is known after the motion only; give stiffness, or \
+                               law = \"hertz\", in its place";
+                refuse("wear", message)
+            }
+            _ if self.friction < 0.0 => refuse("friction", "must not be negative"),
+            _ if most < self.friction => refuse("static", "must not be below friction"),
+            None if most > 0.0 && !self.curve.is_closed_form() => {
+                let message = "friction that sticks acts on lines and circles; on another curve give velocity, such as \
+                               0.01, and stiffness";
+                refuse("friction", message)
+            }
+            Some(velocity) if velocity <= 0.0 => refuse("velocity", "must be positive"),
+            Some(_) if self.restitution.is_some() => {
+                refuse("velocity", "not together with restitution; remove it")
+            }
+            Some(_) if self.r#static.is_some() => {
+                refuse("static", "belongs to friction that sticks; remove velocity")
+            }
+            _ => None,
+        }
+    }
+
+    /// A field of the normal force with an impossible value.
+    fn fault_of_law(&self) -> Option<(&'static str, String)> {
+        let apart = Some(self.touch().pitch()).filter(|_| self.radius != 0.0);
+        self.compliance.fault(self.law, apart, [self.restitution, Some(self.rest_speed)])
+    }
+}
+
+impl<E: Presses> Force for E {
+    const PARTS: &'static [Part] = &[
+        Part { name: "stiffness", nature: Nature::Conservative },
+        Part { name: "damping", nature: Nature::Dissipative },
+        Part { name: "friction", nature: Nature::Dissipative },
+    ];
+    const GROUP: Group = <E as Presses>::GROUP;
+    const TOUCHES_OR_RUBS: bool = true;
+    const MEASURED: &'static [Measured] = &[Measured::GAP];
+
+    fn bodies<S>(e: &E::Over<S>) -> Vec<BodyId> {
+        E::pair(e).into()
+    }
+
+    fn has_formulas<S>(e: &E::Over<S>) -> bool {
+        E::is_closed_form(e)
+    }
+
+    fn measure<S: Real>(e: &E::Over<S>, at: &At<'_, S>, out: &mut [S]) {
+        out[0] = E::pressing(e).touch().gap(at.i(), at.j());
+    }
+
+    fn arms<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {
+        Some(E::pressing(e).point(at).arms)
+    }
+
+    fn action<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
+        E::pressing(e).put(at, &mut out);
+    }
+
+    fn states(given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
+        match given("wear") {
+            true => &[
+                OwnState { name: "sliding_distance", unit: "m" },
+                OwnState { name: "wear_volume", unit: "m^3" },
+            ],
+            false => &[],
+        }
+    }
+
+    fn state_rates<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
+        if !out.is_empty() {
+            out.copy_from_slice(&E::pressing(e).wearing(at));
+        }
+    }
+
+    fn switch_count<S>(e: &E::Over<S>) -> usize {
+        if E::is_compliant(e) {
+            SWITCHES
+        } else {
+            0
+        }
+    }
+
+    fn switches<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
+        let own = E::pressing(e);
+        if let Some(law) = own.law() {
+            law.switches(own.point(at).depth(), out);
+        }
+    }
+
+    fn potential<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>) -> S {
+        let own = E::pressing(e);
+        match own.law() {
+            Some(law) if !own.is_free(at) => law.potential(at, 0, -own.gap(at)),
+            _ => S::zero(),
+        }
+    }
+
+    fn result_quantities<S>(_: &E::Over<S>) -> &'static [ResultQuantity] {
+        &[
+            ResultQuantity { name: "force", unit: "N", negative: None },
+            ResultQuantity { name: "tangential", unit: "N", negative: None },
+            ResultQuantity { name: "sliding", unit: "m/s", negative: None },
+            ResultQuantity { name: "sticking", unit: "", negative: None },
+        ]
+    }
+
+    /// N, the friction force on body j along growing u, and the sliding velocity. Friction that sticks replaces the
+    /// last three.
+    fn results<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
+        E::pressing(e).results(at, out);
+    }
+
+    fn behaviour<S: Real>(e: &E::Over<S>) -> Option<Behaviour<S>> {
+        let own = E::pressing(e);
+        let rest_speed = own.rest_speed;
+        let impacts = |restitution| Behaviour::Impacts { restitution, rest_speed };
+        let compliant = |law: Hertz<S>| {
+            let [stiffness, exponent] = law.power();
+            Behaviour::Compliant { stiffness, exponent, damping: law.damping }
+        };
+        own.restitution.map(impacts).or_else(|| own.law().map(compliant))
+    }
+
+    fn threshold<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>) -> S {
+        E::pressing(e).gap(at)
+    }
+
+    fn companion(e: &E::Over<Tape>) -> Option<ForceElement<Tape>> {
+        E::pressing(e).companion()
+    }
+
+    fn clearances(e: &E::Over<f64>) -> Vec<Clearance<'_>> {
+        vec![E::clearance(e)]
+    }
+
+    fn play(e: &E::Over<f64>) -> Option<(&'static str, f64)> {
+        <E as Presses>::play(e)
+    }
+
+    fn requires(e: &E::Over<f64>, at: &At<'_, f64>) -> Option<Required<f64>> {
+        <E as Presses>::requires(e, at)
+    }
+
+    fn holding(e: &E::Over<Tape>, _: f64, _: f64) -> Option<Constraint<Tape>> {
+        let Pressing { i, curve, radius, side, .. } = E::pressing(e);
+        let curve = curve.into_owned();
+        Some(Constraint::Resting(Resting { i: i.clone(), curve, radius, side }))
+    }
+
+    fn symbols(e: &E::Over<f64>) -> Vec<SceneSymbol> {
+        <E as Presses>::symbols(e)
+    }
+
+    fn fault(e: &E::Over<f64>) -> Option<(&'static str, String)> {
+        let own = E::pressing(e);
+        <E as Presses>::fault(e).or_else(|| own.fault()).or_else(|| own.fault_of_law())
+    }
+}
