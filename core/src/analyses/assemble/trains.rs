@@ -2,7 +2,7 @@
 //!
 //! The equations of a closed train depend on each other, Σ y_k Φ_q,k = 0, so that it closes only if Σ y_k Φ_k = 0. The
 //! phases x_k of the wheels are changed for this: Σ y_k (Φ_k - x_k) = 0. Without teeth, x_k is any number. With teeth,
-//! it is a whole number n_k of pitches. Column operations with integers, as in Euclid's algorithm, bring the equations
+//! it is a whole number n_k of pitches. PitchColumn operations with integers, as in Euclid's algorithm, bring the equations
 //! for n to triangular form (Hermite), which shows whether there is a solution.
 
 use super::attempt::{close_from, given, internal, Closed, MOST_TRIES};
@@ -153,12 +153,12 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// Numbers of pitches, and what they add to each relation.
 #[derive(Clone)]
-struct Column {
+struct PitchColumn {
     entries: Vec<f64>,
     n: Vec<f64>,
 }
 
-impl Column {
+impl PitchColumn {
     fn subtract(&mut self, times: f64, other: &Self) {
         let entries = self.entries.iter_mut().zip(&other.entries);
         let n = self.n.iter_mut().zip(&other.n);
@@ -194,11 +194,11 @@ fn pitches(meshes: &[Mesh], relations: &[PhaseRelation], phi: &[f64]) -> Result<
         |k: usize| meshes[k].pitch.map_or(0.0, |pitch| (phi[meshes[k].row] / pitch).round());
     let n = (0..meshes.len()).map(nearest).list();
     let mut found =
-        Column { entries: relations.iter().map(|one| dot(&one.a, &n) - one.c).list(), n };
-    let mut columns: Vec<Column> = (0..meshes.len())
+        PitchColumn { entries: relations.iter().map(|one| dot(&one.a, &n) - one.c).list(), n };
+    let mut columns: Vec<PitchColumn> = (0..meshes.len())
         .map(|k| {
             let n = (0..meshes.len()).map(|j| f64::from(u8::from(j == k))).list();
-            Column { entries: relations.iter().map(|one| one.a[k]).list(), n }
+            PitchColumn { entries: relations.iter().map(|one| one.a[k]).list(), n }
         })
         .list();
     for r in 0..relations.len() {
@@ -229,7 +229,7 @@ fn pitches(meshes: &[Mesh], relations: &[PhaseRelation], phi: &[f64]) -> Result<
 }
 
 /// The only column with an entry in row `r` after Euclid's algorithm, removed from the others.
-fn reduced(columns: &mut Vec<Column>, r: usize) -> Option<Column> {
+fn reduced(columns: &mut Vec<PitchColumn>, r: usize) -> Option<PitchColumn> {
     loop {
         let entry = |k: &usize| columns[*k].entries[r].abs();
         let mut with_entry = (0..columns.len()).filter(|k| entry(k) > 0.0).list();
