@@ -183,7 +183,7 @@ impl<'a> Statics<'a> {
     /// Forces and stiffness along the degrees of freedom at a position.
     pub fn local(&self, place: &StaticState) -> Result<LocalForces, Reason> {
         let mut basis = self.freedoms(place)?;
-        orthonormalize(&mut basis.basis, &self.columns);
+        basis.orthonormalize(&self.columns);
         let gradient = basis.reduce(&place.missing);
         let stiffness = self.stiffness(place, &basis)?;
         Ok(LocalForces { basis, gradient, stiffness })
@@ -315,23 +315,4 @@ fn is_conservative(model: &Model) -> bool {
         let potential = |nature| matches!(nature, Nature::Conservative | Nature::Dissipative);
         item.law.is_none() && item.states.is_empty() && natures.into_iter().all(potential)
     })
-}
-
-/// The Gram–Schmidt method, applied twice, in scaled coordinates.
-fn orthonormalize(columns: &mut [Vec<f64>], scales: &[f64]) {
-    let product = |a: &[f64], b: &[f64]| -> f64 {
-        a.iter().zip(b).zip(scales).map(|((a, b), s)| (a / s) * (b / s)).sum()
-    };
-    for _ in 0..2 {
-        for k in 0..columns.len() {
-            let (before, rest) = columns.split_at_mut(k);
-            let own = &mut rest[0];
-            for other in before {
-                let part = product(own, other);
-                own.iter_mut().zip(other).for_each(|(a, b)| *a -= part * *b);
-            }
-            let length = product(own, own).sqrt();
-            own.iter_mut().for_each(|x| *x /= length);
-        }
-    }
 }
