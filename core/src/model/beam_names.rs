@@ -13,6 +13,15 @@ pub const NODE: &str = "node";
 /// The end of the name of a weld of the rigid form.
 pub const WELD: &str = " (rigid)";
 
+/// The locks of stretch and shear, in the names of the constraints that keep a piece from either.
+pub const LOCKS: [&str; 2] = ["stretch", "slide"];
+
+/// Whether a constraint locks the stretch of a piece of a beam.
+pub fn is_stretch_lock(name: &str, beam: &str) -> bool {
+    let piece = name.strip_prefix(beam).and_then(|of| of.strip_prefix('.'));
+    piece.is_some_and(|of| of.strip_prefix(LOCKS[0]).is_some_and(|of| of.starts_with('_')))
+}
+
 /// Whether an entry of the bodies is a beam.
 pub fn is_beam(entry: &Entry) -> bool {
     matches!(entry.get("type"), Some(Value::Text(kind)) if kind == BEAM)

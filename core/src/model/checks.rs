@@ -42,7 +42,8 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
         }
     }
     let parameters = &model.parameters;
-    for item in &model.constraints {
+    // the piece of a beam reports faults of its lock
+    for item in model.constraints.iter().filter(|item| item.element.in_files()) {
         let section = item.group.section();
         let element = match &item.law {
             None => item.element.clone(),

@@ -244,10 +244,19 @@ class CompiledModel:
         return MappingProxyType({k: f for k, f in self.forces.items() if f.is_shown})
 
     @cached_property
+    def _all_constraints(self) -> tuple[ConstraintInfo, ...]:
+        return tuple(map(constraint, self._about["constraints"]))
+
+    @cached_property
     def constraints(self) -> Mapping[str, ConstraintInfo]:
         """Joints and drivers, in the order of Φ."""
-        infos = map(constraint, self._about["constraints"])
-        return MappingProxyType({info.name: info for info in infos})
+        infos = self._all_constraints
+        return MappingProxyType({info.name: info for info in infos if info.is_shown})
+
+    def locks(self, beam: str) -> list[ConstraintInfo]:
+        """The constraints that lock strains of the pieces of a beam, along the beam."""
+        infos = (info for info in self._all_constraints if not info.is_shown)
+        return [info for info in infos if info.name.startswith(f"{beam}.")]
 
     @property
     def joints(self) -> Mapping[str, ConstraintInfo]:

@@ -10,7 +10,7 @@ use super::pieces::{divide, Division};
 use super::stiffness::{self, Stiffness};
 use crate::elements::beam_line::{NODES, SHARES};
 use crate::elements::{
-    elastic_piece, welded, BodyId, Constraint, ForceElement, PieceNumbers, PointOn,
+    beam_lock, elastic_piece, welded, BodyId, Constraint, ForceElement, PieceNumbers, PointOn,
 };
 use crate::expression::Tape;
 use crate::math::{Listed, Local};
@@ -21,6 +21,8 @@ pub struct Linked {
     pub bodies: Vec<Body<Tape>>,
     /// Its elastic pieces.
     pub pieces: Vec<(String, ForceElement<Tape>)>,
+    /// The locks of their strains, which hold in the elastic form only.
+    pub locks: Vec<(String, Constraint<Tape>)>,
     /// The welds that carry its nodes in the rigid form of the model.
     pub welds: Vec<(String, Constraint<Tape>)>,
     /// Its ends and named points in the frame of the first end, for the rigid form.
@@ -45,7 +47,8 @@ fn placeholder(reader: &mut Reader<'_>) -> Linked {
     let further = nodes::names(reader.entry);
     let further = further.into_iter().map(|name| Body { name, ..reader.blank(NODE) }).list();
     let bodies = std::iter::once(first).chain(further).list();
-    Linked { bodies, pieces: Vec::new(), welds: Vec::new(), places: Vec::new() }
+    let (pieces, locks, welds, places) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    Linked { bodies, pieces, locks, welds, places }
 }
 
 fn zero() -> Local<Tape> {
@@ -62,7 +65,6 @@ struct BeamParts {
 }
 
 fn parts(reader: &mut Reader<'_>) -> Option<BeamParts> {
-    refused(reader);
     let (line, stiffness) = (CentreLine::read(reader), stiffness::read(reader));
     let damping = match reader.entry.get("damping") {
         Some(Value::Number(0.0)) | None => None,
@@ -71,19 +73,6 @@ fn parts(reader: &mut Reader<'_>) -> Option<BeamParts> {
     let line = line?;
     let places = places(reader, &line.length)?;
     Some(BeamParts { line, stiffness: stiffness?, damping, places })
-}
-
-/// Reports what is not computed yet.
-fn refused(reader: &mut Reader<'_>) {
-    if reader.entry.get("shear") == Some(&Value::Flag(false)) {
-        reader.report(
-            "shear",
-            "beams without shear are not computed yet; remove shear, and give GA or a section",
-        );
-    }
-    if reader.entry.get("inextensible") == Some(&Value::Flag(true)) {
-        reader.report("inextensible", "inextensible beams are not computed yet; remove inextensible, and give EA or a section");
-    }
 }
 
 /// The ends and named points in the order of their arc lengths.
@@ -193,7 +182,7 @@ impl BeamParts {
         let division = divide(&along, nodes::elements(reader.entry));
         let ids = self.ids(reader, &division, first);
         let bodies = self.bodies(reader, &division, &ids, first);
-        let pieces = self.pieces(reader, &division, &ids);
+        let (pieces, locks) = self.pieces(reader, &division, &ids);
         let (mut welds, mut places) = (Vec::new(), Vec::new());
         let mut named = self.places.iter();
         for (k, s) in division.at.iter().enumerate() {
@@ -208,7 +197,7 @@ impl BeamParts {
                 welds.push((name, welded(i, j, angle)));
             }
         }
-        Linked { bodies, pieces, welds, places }
+        Linked { bodies, pieces, locks, welds, places }
     }
 
     /// The bodies of the nodes along the beam.
@@ -261,23 +250,32 @@ impl BeamParts {
         reader: &mut Reader<'_>,
         division: &Division,
         ids: &[BodyId],
-    ) -> Vec<(String, ForceElement<Tape>)> {
+    ) -> (Vec<(String, ForceElement<Tape>)>, Vec<(String, Constraint<Tape>)>) {
         let three = |tape: &Tape| [tape.clone(), tape.clone(), tape.clone()];
         let of = &self.stiffness;
-        let mut made = Vec::new();
+        let locked = [("inextensible", true), ("shear", false)]
+            .map(|(key, by)| reader.entry.get(key) == Some(&Value::Flag(by)));
+        // a locked strain is zero, so that any stiffness exerts no force
+        let one = Tape::from(1.0);
+        let soft = |axis: usize, of: &Tape| three(if locked[axis] { &one } else { of });
+        let (mut made, mut locks) = (Vec::new(), Vec::new());
         for (k, element) in division.elements.iter().enumerate() {
             let (start, length) = (&element.start, &element.length);
             let numbers = PieceNumbers {
                 start: reader.compose(start),
                 length: reader.compose(length),
-                stiffness: [three(&of.axial), three(&of.shear), three(&of.bending)],
+                stiffness: [soft(0, &of.axial), soft(1, &of.shear), three(&of.bending)],
                 strains: self.line.strains(reader, start, length),
                 damping: self.damping.clone(),
                 stresses: [three(&of.by_force), three(&of.by_moment)],
             };
-            let name = format!("{}.piece_{}", reader.entry.name, k + 1);
-            made.push((name, elastic_piece(element.nodes.map(|node| ids[node]), numbers)));
+            let of = element.nodes.map(|node| ids[node]);
+            let name = |of: &str| format!("{}.{of}_{}", reader.entry.name, k + 1);
+            for axis in [0, 1].into_iter().filter(|axis| locked[*axis]) {
+                locks.push((name(nodes::LOCKS[axis]), beam_lock(of, axis, &numbers)));
+            }
+            made.push((name("piece"), elastic_piece(of, numbers)));
         }
-        made
+        (made, locks)
     }
 }

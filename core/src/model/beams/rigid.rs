@@ -9,8 +9,11 @@ use crate::expression::Tape;
 use crate::math::Listed;
 use std::sync::Arc;
 
-/// Adds the elastic pieces to a blueprint.
-pub fn connect(blueprint: &mut Blueprint, beams: Vec<Linked>) {
+/// Adds the elastic pieces and their locks to a blueprint.
+pub fn connect(blueprint: &mut Blueprint, mut beams: Vec<Linked>) {
+    let locks = beams.iter_mut().flat_map(|beam| std::mem::take(&mut beam.locks));
+    let locks = locks.map(|(name, lock)| (name, Group::Joints, lock));
+    Arc::make_mut(&mut blueprint.constraints).extend(locks);
     let pieces = beams.into_iter().flat_map(|beam| beam.pieces);
     let forces = pieces.map(|(name, element)| (name, &[][..], element));
     Arc::make_mut(&mut blueprint.forces).extend(forces);

@@ -34,14 +34,13 @@ const GIVEN: [&str; 3] = ["EA", "EI", "GA"];
 
 /// Reads the section and the material of a beam.
 pub fn read(reader: &mut Reader<'_>) -> Option<Stiffness> {
-    let sheared = reader.entry.get("shear") != Some(&Value::Flag(false));
     match reader.entry.get("section") {
-        Some(_) => of_section(reader, sheared),
-        None => as_given(reader, sheared),
+        Some(_) => of_section(reader),
+        None => as_given(reader),
     }
 }
 
-fn as_given(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
+fn as_given(reader: &mut Reader<'_>) -> Option<Stiffness> {
     for key in ["young", "poisson", "density"] {
         if reader.entry.get(key).is_some() {
             let instead = if key == "density" { "mass_per_length" } else { "EA, EI and GA" };
@@ -50,22 +49,24 @@ fn as_given(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
             return None;
         }
     }
-    let needed = if sheared { &GIVEN[..] } else { &GIVEN[..2] };
-    if let Some(key) = needed.iter().find(|key| reader.entry.get(key).is_none()) {
-        let or = match *key {
-            "GA" => "; a GA as large as EA leaves little shear",
-            _ => "",
-        };
+    let without = [("EA", "inextensible = true"), ("GA", "shear = false")];
+    let flags = [("inextensible", true), ("shear", false)];
+    let locked = flags.map(|(key, by)| reader.entry.get(key) == Some(&Value::Flag(by)));
+    for key in GIVEN {
+        let place = without.iter().position(|(of, _)| *of == key);
+        if reader.entry.get(key).is_some() || place.is_some_and(|k| locked[k]) {
+            continue;
+        }
+        let or = place.map_or(String::new(), |k| format!("; {} needs no {key}", without[k].1));
         let all = GIVEN.join(", ");
         reader.missing(&format!("'{key}' is missing; give section and young, or all of {all}{or}"));
         return None;
     }
-    let [axial, bending] =
-        [("EA", "N"), ("EI", "N*m^2")].map(|(key, unit)| reader.number(key, unit));
-    let shear = match reader.entry.get("GA") {
-        Some(_) => reader.number("GA", "N"),
+    let mut given = |key: &str, unit: &str| match reader.entry.get(key) {
+        Some(_) => reader.number(key, unit),
         None => Some(Tape::from(1.0)),
     };
+    let (axial, shear, bending) = (given("EA", "N"), given("GA", "N"), given("EI", "N*m^2"));
     for key in GIVEN {
         // a quotient of two of them follows
         let x = reader.entry.get(key).map_or(1.0, |value| reader.value(&term(value)));
@@ -74,14 +75,18 @@ fn as_given(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
             return None;
         }
     }
-    let texts = ["EA", "EI"].map(|key| reader.entry.get(key).map_or(String::new(), term));
-    let (mass, inertia) = masses(reader, None, &format!("{}/{}", texts[1], texts[0]))?;
+    let texts = ["EA", "EI"].map(|key| reader.entry.get(key).map(term));
+    let radius = match texts {
+        [Some(axial), Some(bending)] => Some(format!("{bending}/{axial}")),
+        _ => None,
+    };
+    let (mass, inertia) = masses(reader, None, radius)?;
     let (by_force, by_moment) = (Tape::from(0.0), Tape::from(0.0));
     let (axial, bending, shear) = (axial?, bending?, shear?);
     Some(Stiffness { axial, shear, bending, by_force, by_moment, mass, inertia })
 }
 
-fn of_section(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
+fn of_section(reader: &mut Reader<'_>) -> Option<Stiffness> {
     for key in GIVEN {
         if reader.entry.get(key).is_some() {
             let message =
@@ -112,18 +117,19 @@ fn of_section(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
     let SectionTexts { area, second, face, factor } = shape;
     let axial = reader.compose(&format!("{young}*{area}"));
     let bending = reader.compose(&format!("{young}*{second}"));
-    let shear = match sheared {
-        true => reader.compose(&format!("{factor}*{young}*{area}/(2*(1+{poisson}))")),
-        false => Tape::from(1.0),
-    };
+    let shear = reader.compose(&format!("{factor}*{young}*{area}/(2*(1+{poisson}))"));
     let by_force = reader.compose(&format!("1/{area}"));
     let by_moment = reader.compose(&format!("{face}/{second}"));
-    let (mass, inertia) = masses(reader, Some(&area), &format!("{second}/{area}"))?;
+    let (mass, inertia) = masses(reader, Some(&area), Some(format!("{second}/{area}")))?;
     Some(Stiffness { axial, shear, bending, by_force, by_moment, mass, inertia })
 }
 
-/// Mass and moment of inertia per length. `radius` is the squared radius of gyration of the section.
-fn masses(reader: &mut Reader<'_>, area: Option<&str>, radius: &str) -> Option<(String, String)> {
+/// Mass and moment of inertia per length. `radius` is the squared radius of gyration of the section, if it is known.
+fn masses(
+    reader: &mut Reader<'_>,
+    area: Option<&str>,
+    radius: Option<String>,
+) -> Option<(String, String)> {
     let given = |reader: &Reader<'_>, key: &str| reader.entry.get(key).map(term);
     let mass = match (given(reader, "density"), given(reader, "mass_per_length"), area) {
         (Some(_), Some(_), _) => {
@@ -147,12 +153,19 @@ fn masses(reader: &mut Reader<'_>, area: Option<&str>, radius: &str) -> Option<(
             return None;
         }
     };
-    let inertia = match given(reader, "inertia_per_length") {
-        Some(inertia) => {
+    let inertia = match (given(reader, "inertia_per_length"), radius) {
+        (Some(inertia), _) => {
             reader.number("inertia_per_length", "kg*m")?;
             inertia
         }
-        None => format!("({mass}*{radius})"),
+        (None, Some(radius)) => format!("({mass}*{radius})"),
+        (None, None) => {
+            reader.missing(
+                "'inertia_per_length' is missing, which follows from EA in other beams; it may be 0 where only \
+                 equilibria are computed",
+            );
+            return None;
+        }
     };
     Some((format!("({mass})"), inertia))
 }

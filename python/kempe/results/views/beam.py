@@ -38,9 +38,17 @@ def has_stress(compiled: CompiledModel, name: str) -> bool:
     return "section" in compiled.tree["bodies"][name]
 
 
+def locks(compiled: CompiledModel, name: str, strain: str) -> list[str]:
+    """The locks of a strain of a beam, ``stretch`` or ``slide``; none if the beam has this strain."""
+    of = (lock.name for lock in compiled.locks(name))
+    return [lock for lock in of if lock.startswith(f"{name}.{strain}_")]
+
+
 def whole(motion: Motion, name: str, quantity: str) -> Any:
     """A result of a beam as a whole: ``stress``, ``bending_moment`` or ``strain_energy``."""
     k = [known for known, _, _ in WHOLE].index(quantity)
+    if quantity == "stress" and (stretch := locks(motion.compiled, name, "stretch")):
+        return np.max(np.stack([motion.results(lock)[..., -1] for lock in stretch]), axis=0)
     of = [motion.force_results(piece) for piece in pieces(motion.compiled, name)]
     column = np.stack([rows[..., _STATIONS * len(_ALONG) + k] for rows in of])
     return WHOLE[k][2](column, axis=0)
@@ -74,6 +82,14 @@ class BeamView:
     def _tables(self) -> list[Floats]:
         return [self._motion.force_results(name) for name in self._pieces]
 
+    def _locked(self, strain: str, first: int) -> Floats | None:
+        """Results of the locks of a strain from column ``first``; None if the beam has the strain."""
+        names = locks(self._motion.compiled, self.name, strain)
+        if not names:
+            return None
+        parts = [self._motion.results(name)[..., first : first + _STATIONS] for name in names]
+        return fixed(np.concatenate(parts, axis=-1))
+
     def _along(self, quantity: str) -> Floats:
         first = _STATIONS * _ALONG.index(quantity)
         parts = [table[..., first : first + _STATIONS] for table in self._tables]
@@ -102,12 +118,14 @@ class BeamView:
     @property
     def normal_force(self) -> Floats:
         """Normal force, N; positive if it pulls."""
-        return self._along("normal_force")
+        locked = self._locked("stretch", 0)
+        return self._along("normal_force") if locked is None else locked
 
     @property
     def shear_force(self) -> Floats:
         """Shear force, N: that of the part beyond the section, to the left of the beam."""
-        return self._along("shear_force")
+        locked = self._locked("slide", 0)
+        return self._along("shear_force") if locked is None else locked
 
     @property
     def bending_moment(self) -> Floats:
@@ -127,7 +145,8 @@ class BeamView:
                 name=self.name,
                 hint="give section and young in place of EA, EI and GA",
             )
-        return self._along("stress")
+        locked = self._locked("stretch", _STATIONS)
+        return self._along("stress") if locked is None else locked
 
     @property
     def strain_energy(self) -> Any:
