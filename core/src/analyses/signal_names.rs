@@ -106,7 +106,8 @@ fn of_beam(model: &Model, beam: &str, found: &mut Family) {
     let Some(first) = pieces.first() else { return };
     let has_stress = model.forces[*first].element.has_stress();
     // the multipliers contain the normal force of an inextensible beam
-    let locks = (0..model.constraints.len()).filter(|k| is_stretch_lock(&model.constraints[*k].name, beam));
+    let locks =
+        (0..model.constraints.len()).filter(|k| is_stretch_lock(&model.constraints[*k].name, beam));
     let locks = locks.map(ElementId::Constraint).list();
     let pieces = pieces.into_iter().map(ElementId::Force).list();
     for (name, sum) in [("stress", false), ("bending_moment", false), ("strain_energy", true)] {

@@ -8,7 +8,8 @@ use crate::equations::balance::Balance;
 use crate::equations::energy;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
-use crate::equations::reactions;
+use crate::equations::tangent::Tangent;
+use crate::equations::{reactions, reactive};
 use crate::math::{each, Listed, Vec2};
 use crate::model::{column_scales, row_scales, size, Model};
 use crate::solve::solve_dense;
@@ -217,9 +218,22 @@ impl<'a> Statics<'a> {
             StatePoint { q: &place.q, v: &self.rest, z: &place.z, a: &self.rest, lam: &place.lam };
         let variation = Variation::new(self.model, self.t, at, false);
         let by_states = self.by_states(&variation, place.z.len());
+        if reactive::depends(self.model) {
+            let along = |direction: &&[f64]| {
+                let slopes = variation.along(StatePoint { q: direction, ..StatePoint::default() });
+                self.followed(&by_states, slopes.forces, &slopes.states)
+            };
+            return directions.iter().map(along).collect();
+        }
+        let motions = Motions::at_rest(&self.model.layout, &place.q);
+        let mut tangent = Tangent::new(self.model);
+        tangent.linearize(self.model, &motions, self.t, [&self.rest, &place.lam, &place.z]);
+        let (n, n_z) = (place.q.len(), place.z.len());
+        let mut product = vec![0.0; n + n_z + place.lam.len()];
         let along = |direction: &&[f64]| {
-            let slopes = variation.along(StatePoint { q: direction, ..StatePoint::default() });
-            self.followed(&by_states, slopes.forces, &slopes.states)
+            tangent.times(self.model, [&self.rest, &vec![0.0; n_z], direction], &mut product);
+            let forces = product[..n].iter().map(|x| -x).list();
+            self.followed(&by_states, forces, &product[n..n + n_z])
         };
         directions.iter().map(along).collect()
     }

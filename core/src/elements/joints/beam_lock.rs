@@ -10,8 +10,10 @@
 //! A file has no locks: the reader of beams makes them.
 
 use crate::elements::beam_line::{in_stations, section, AT_GAUSS, NODES, STATIONS, WEIGHTS};
-use crate::elements::{element, At, Attachment, BodyId, Equation, Joint, ResultQuantity};
-use crate::math::{each, indexed, Local, Pose, Real};
+use crate::elements::{
+    element, At, Attachment, BodyId, Equation, Joint, Linearized, Moving, ResultQuantity,
+};
+use crate::math::{each, indexed, Local, Pose, Real, Vec2};
 
 element! {
     /// Lock of a strain of a piece of a beam between four nodes.
@@ -89,6 +91,39 @@ impl Joint for BeamLock {
             let strain = Local::new(of.x - e.stretch[g], of.y - e.slide[g]);
             let along = e.along[0] * strain.x + e.along[1] * strain.y;
             *phi = S::constant(WEIGHTS[g]) * e.length * along;
+        }
+    }
+
+    /// Closed form: with R Γ = (Γ₂, -Γ₁), ∂Γ/∂(rₖ, φₖ) = [Nₖ′ Aᵀ, Nₖ R Γ] and Γ̈ = 2 φ̇ R Aᵀ ṙ′ - φ̇² Γ.
+    fn linearize<S: Real>(e: &BeamLock<S>, at: &Moving<'_, S>, out: Linearized<'_, S>) {
+        let nodes = each(ORDER, |k| &at.bodies[k].pose);
+        let per_length = S::constant(2.0) / e.length;
+        let along = Local::new(e.along[0], e.along[1]);
+        let turned = |of: Local<S>| Local::new(of.y, -of.x);
+        let times = |of: Local<S>| along.x * of.x + along.y * of.y;
+        for g in 0..3 {
+            let (weight, of) =
+                (S::constant(WEIGHTS[g]) * e.length, section(nodes, &AT_GAUSS[g], per_length));
+            let (mut rate, mut omega) = (Vec2::zero(), S::zero());
+            let axis: Vec2<S> = of.rotation * along;
+            for (k, body) in ORDER.into_iter().enumerate() {
+                let value = S::constant(AT_GAUSS[g].value[k]);
+                let slope = S::constant(AT_GAUSS[g].slope[k]) * per_length;
+                let twist = &at.bodies[body].twist;
+                rate = rate + twist.velocity.scale(slope);
+                omega += value * twist.omega;
+                out.columns[3 * body + g] = [
+                    weight * slope * axis.x,
+                    weight * slope * axis.y,
+                    weight * value * times(turned(of.tangent)),
+                ];
+            }
+            let rate = of.rotation.inverse(rate);
+            let strain = Local::new(of.tangent.x - e.stretch[g], of.tangent.y - e.slide[g]);
+            out.residual[g] = weight * times(strain);
+            out.rate[g] = weight * times(rate + turned(of.tangent).scale(omega));
+            let bent = turned(rate).scale(S::constant(2.0) * omega);
+            out.gamma[g] = weight * times(of.tangent.scale(omega * omega) - bent);
         }
     }
 
