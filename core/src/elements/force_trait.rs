@@ -382,6 +382,13 @@ pub trait Force: Element {
         false
     }
 
+    /// A length of the element that counts for the size of the mechanism, m.
+    #[inline]
+    fn reach<S: Real>(e: &Self::Over<S>) -> Option<S> {
+        let _ = e;
+        None
+    }
+
     /// The symbols of the element in a drawing. A varying law is NaN here.
     #[inline]
     fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {

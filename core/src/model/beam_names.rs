@@ -14,7 +14,7 @@ pub const NODE: &str = "node";
 pub const WELD: &str = " (rigid)";
 
 /// The locks of stretch and shear, in the names of the constraints that keep a piece from either.
-pub const LOCKS: [&str; 2] = ["stretch", "slide"];
+pub const LOCKS: [&str; 2] = ["inextensible", "unsheared"];
 
 /// Whether a constraint locks the stretch of a piece of a beam.
 pub fn is_stretch_lock(name: &str, beam: &str) -> bool {

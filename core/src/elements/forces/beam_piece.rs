@@ -274,6 +274,11 @@ impl Force for BeamPiece {
         out[8 * STATIONS + 2] = Self::potential(e, at);
     }
 
+    /// The arc length of the beam up to its last node.
+    fn reach<S: Real>(e: &BeamPiece<S>) -> Option<S> {
+        Some(e.start + e.length)
+    }
+
     fn has_stress(e: &BeamPiece) -> bool {
         e.by_force.iter().all(|x| *x != 0.0)
     }

@@ -186,13 +186,15 @@ impl BeamParts {
         let (mut welds, mut places) = (Vec::new(), Vec::new());
         let mut named = self.places.iter();
         for (k, s) in division.at.iter().enumerate() {
-            let [x, y, angle] = self.line.place(reader, s);
-            let at = Local { x, y };
             if division.named[k] {
-                places.extend(named.next().map(|(name, ..)| (name.clone(), at.clone())));
+                let [x, y, _] = self.line.place(reader, s);
+                places.extend(named.next().map(|(name, ..)| (name.clone(), Local { x, y })));
             }
             if k > 0 {
-                let (i, j) = (PointOn { body: first, s: at }, PointOn { body: ids[k], s: zero() });
+                // a chain, so that the factors of the rigid form stay sparse
+                let [x, y, angle] = self.line.step(reader, &division.at[k - 1], s);
+                let i = PointOn { body: ids[k - 1], s: Local { x, y } };
+                let j = PointOn { body: ids[k], s: zero() };
                 let name = format!("{}{WELD}", bodies[ids[k].0 - first.0].name);
                 welds.push((name, welded(i, j, angle)));
             }

@@ -39,7 +39,7 @@ def has_stress(compiled: CompiledModel, name: str) -> bool:
 
 
 def locks(compiled: CompiledModel, name: str, strain: str) -> list[str]:
-    """The locks of a strain of a beam, ``stretch`` or ``slide``; none if the beam has this strain."""
+    """The locks of a strain of a beam, ``inextensible`` or ``unsheared``; none if it has none."""
     of = (lock.name for lock in compiled.locks(name))
     return [lock for lock in of if lock.startswith(f"{name}.{strain}_")]
 
@@ -47,7 +47,7 @@ def locks(compiled: CompiledModel, name: str, strain: str) -> list[str]:
 def whole(motion: Motion, name: str, quantity: str) -> Any:
     """A result of a beam as a whole: ``stress``, ``bending_moment`` or ``strain_energy``."""
     k = [known for known, _, _ in WHOLE].index(quantity)
-    if quantity == "stress" and (stretch := locks(motion.compiled, name, "stretch")):
+    if quantity == "stress" and (stretch := locks(motion.compiled, name, "inextensible")):
         return np.max(np.stack([motion.results(lock)[..., -1] for lock in stretch]), axis=0)
     of = [motion.force_results(piece) for piece in pieces(motion.compiled, name)]
     column = np.stack([rows[..., _STATIONS * len(_ALONG) + k] for rows in of])
@@ -118,13 +118,13 @@ class BeamView:
     @property
     def normal_force(self) -> Floats:
         """Normal force, N; positive if it pulls."""
-        locked = self._locked("stretch", 0)
+        locked = self._locked("inextensible", 0)
         return self._along("normal_force") if locked is None else locked
 
     @property
     def shear_force(self) -> Floats:
         """Shear force, N: that of the part beyond the section, to the left of the beam."""
-        locked = self._locked("slide", 0)
+        locked = self._locked("unsheared", 0)
         return self._along("shear_force") if locked is None else locked
 
     @property
@@ -145,7 +145,7 @@ class BeamView:
                 name=self.name,
                 hint="give section and young in place of EA, EI and GA",
             )
-        locked = self._locked("stretch", _STATIONS)
+        locked = self._locked("inextensible", _STATIONS)
         return self._along("stress") if locked is None else locked
 
     @property
