@@ -42,8 +42,10 @@ pub fn beam_of(name: &str) -> &str {
     name.split_once('.').map_or(name, |(beam, _)| beam)
 }
 
-/// Number of elements if it is not given.
+/// Number of elements if it is not given: of a straight beam, and of a curved one, with at least one element between
+/// two points of `through`.
 const DEFAULT_ELEMENTS: usize = 4;
+const CURVED_ELEMENTS: usize = 8;
 /// Nodes that an element adds.
 pub const PER_ELEMENT: usize = 3;
 
@@ -76,10 +78,15 @@ pub fn written(entry: &Entry) -> Option<usize> {
 /// Largest number of elements of a beam.
 pub const MOST: f64 = 10_000.0;
 
-/// The number of elements: at least one between two places with names.
+/// The number of elements: at least one between two places with names, and two if no number is given.
 pub fn elements(entry: &Entry) -> usize {
     let least = points(entry).len() + 1;
-    written(entry).unwrap_or(DEFAULT_ELEMENTS.max(2 * least)).max(least)
+    let by_shape = match (entry.get("through"), entry.get("arc")) {
+        (Some(Value::List(points)), _) if points.len() > 2 => CURVED_ELEMENTS.max(points.len() - 1),
+        (_, Some(_)) => CURVED_ELEMENTS,
+        _ => DEFAULT_ELEMENTS,
+    };
+    written(entry).unwrap_or(by_shape.max(2 * least)).max(least)
 }
 
 /// The name of node `k` between the places with names, counted along the beam.

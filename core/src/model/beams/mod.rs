@@ -6,6 +6,7 @@
 //! In the rigid form of a model, joints connect to the first node, and welds carry the other nodes. Assembly closes
 //! the mechanism in this form, so that beams start without strain.
 
+mod along;
 mod centre_line;
 mod pieces;
 mod read;

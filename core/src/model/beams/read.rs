@@ -5,10 +5,11 @@ use super::super::body_reader::{term, Reader};
 use super::super::definition::Value;
 use super::super::items::Body;
 use super::super::scope::Reach;
+use super::along;
 use super::centre_line::CentreLine;
 use super::pieces::{divide, Division};
 use super::stiffness::{self, Stiffness};
-use crate::elements::beam_line::{NODES, SHARES};
+use crate::elements::beam_line::{GAUSS, NODES, SHARES};
 use crate::elements::{
     beam_lock, elastic_piece, welded, BodyId, Constraint, ForceElement, PieceNumbers, PointOn,
 };
@@ -65,7 +66,9 @@ struct BeamParts {
 }
 
 fn parts(reader: &mut Reader<'_>) -> Option<BeamParts> {
-    let (line, stiffness) = (CentreLine::read(reader), stiffness::read(reader));
+    let line = CentreLine::read(reader);
+    let length = line.as_ref().map_or("1", |line| &line.length).to_string();
+    let stiffness = stiffness::read(reader, &length);
     let damping = match reader.entry.get("damping") {
         Some(Value::Number(0.0)) | None => None,
         Some(_) => Some(reader.number("damping", "s")?),
@@ -228,6 +231,7 @@ impl BeamParts {
         ids: &[BodyId],
         first: BodyId,
     ) -> Vec<Body<Tape>> {
+        let of = &self.stiffness;
         let mut carried = vec![Vec::new(); ids.len()];
         for element in &division.elements {
             for k in 0..NODES {
@@ -238,11 +242,11 @@ impl BeamParts {
         let mut bodies = vec![Body { drawn: self.line.drawn.clone(), ..reader.blank(BEAM) }];
         bodies[0].points.push((self.places[0].0.clone(), zero()));
         bodies.extend(names.into_iter().map(|name| Body { name, ..reader.blank(NODE) }));
-        for (carried, id) in carried.iter().zip(ids) {
+        for ((carried, id), s) in carried.iter().zip(ids).zip(&division.at) {
             let length = carried.join("+");
             let body = &mut bodies[id.0 - first.0];
-            body.mass = reader.compose(&format!("{}*({length})", self.stiffness.mass));
-            body.inertia = reader.compose(&format!("{}*({length})", self.stiffness.inertia));
+            body.mass = reader.compose(&format!("{}*({length})", along::at(&of.mass, s)));
+            body.inertia = reader.compose(&format!("{}*({length})", along::at(&of.inertia, s)));
         }
         bodies
     }
@@ -253,23 +257,26 @@ impl BeamParts {
         division: &Division,
         ids: &[BodyId],
     ) -> (Vec<(String, ForceElement<Tape>)>, Vec<(String, Constraint<Tape>)>) {
-        let three = |tape: &Tape| [tape.clone(), tape.clone(), tape.clone()];
         let of = &self.stiffness;
         let locked = [("inextensible", true), ("shear", false)]
             .map(|(key, by)| reader.entry.get(key) == Some(&Value::Flag(by)));
         // a locked strain is zero, so that any stiffness exerts no force
-        let one = Tape::from(1.0);
-        let soft = |axis: usize, of: &Tape| three(if locked[axis] { &one } else { of });
+        let one = "1".to_string();
+        let stiffness = [&of.axial, &of.shear, &of.bending];
+        let soft = [0, 1, 2].map(|k| if k < 2 && locked[k] { &one } else { stiffness[k] });
         let (mut made, mut locks) = (Vec::new(), Vec::new());
         for (k, element) in division.elements.iter().enumerate() {
             let (start, length) = (&element.start, &element.length);
+            let share = |xi: f64| format!("({start}+({:?})*{length})", 0.5 * (1.0 + xi));
+            let gauss = GAUSS.map(share);
             let numbers = PieceNumbers {
                 start: reader.compose(start),
                 length: reader.compose(length),
-                stiffness: [soft(0, &of.axial), soft(1, &of.shear), three(&of.bending)],
+                stiffness: soft.map(|text| stiffness::at(reader, text, &gauss)),
                 strains: self.line.strains(reader, start, length),
                 damping: self.damping.clone(),
-                stresses: [three(&of.by_force), three(&of.by_moment)],
+                stresses: [&of.by_force, &of.by_moment]
+                    .map(|text| stiffness::at(reader, text, &gauss)),
             };
             let of = element.nodes.map(|node| ids[node]);
             let name = |of: &str| format!("{}.{of}_{}", reader.entry.name, k + 1);
