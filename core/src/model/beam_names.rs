@@ -32,6 +32,15 @@ pub fn is_weld(name: &str) -> bool {
     name.ends_with(WELD)
 }
 
+/// The name by which messages call a constraint: that of the beam for a weld of its rigid form.
+pub fn shown(name: &str) -> &str {
+    if is_weld(name) {
+        beam_of(name)
+    } else {
+        name
+    }
+}
+
 /// Whether a body is a node of a beam without a name of the file.
 pub fn is_inner(name: &str) -> bool {
     name.contains(".#")

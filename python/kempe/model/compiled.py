@@ -347,15 +347,15 @@ class CompiledModel:
 
     def row_names(self) -> list[str]:
         """Names of the constraint equations in the order of Φ, such as ``A.x``."""
-        return [f"{c.name}.{name}" for c in self.constraints.values() for name, _ in c.equations]
+        return [f"{c.name}.{name}" for c in self._all_constraints for name, _ in c.equations]
 
     def row_units(self) -> list[str]:
         """Units of the constraint equations in the order of Φ: m or rad."""
-        return [unit for c in self.constraints.values() for _, unit in c.equations]
+        return [unit for c in self._all_constraints for _, unit in c.equations]
 
     def acting_rows(self) -> list[tuple[str, str]]:
         """Names and units of the constraint equations without those of released drivers."""
-        acting = [c for name, c in self.constraints.items() if name not in self.released]
+        acting = [c for c in self._all_constraints if c.name not in self.released]
         return [(f"{c.name}.{name}", unit) for c in acting for name, unit in c.equations]
 
     def __repr__(self) -> str:

@@ -26,8 +26,6 @@ pub struct Linked {
     pub locks: Vec<(String, Constraint<Tape>)>,
     /// The welds that carry its nodes in the rigid form of the model.
     pub welds: Vec<(String, Constraint<Tape>)>,
-    /// Its ends and named points in the frame of the first end, for the rigid form.
-    pub places: Vec<(String, Local<Tape>)>,
 }
 
 /// Reads a beam whose first node has the index `first`.
@@ -48,8 +46,8 @@ fn placeholder(reader: &mut Reader<'_>) -> Linked {
     let further = nodes::names(reader.entry);
     let further = further.into_iter().map(|name| Body { name, ..reader.blank(NODE) }).list();
     let bodies = std::iter::once(first).chain(further).list();
-    let (pieces, locks, welds, places) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    Linked { bodies, pieces, locks, welds, places }
+    let (pieces, locks, welds) = (Vec::new(), Vec::new(), Vec::new());
+    Linked { bodies, pieces, locks, welds }
 }
 
 fn zero() -> Local<Tape> {
@@ -186,13 +184,8 @@ impl BeamParts {
         let ids = self.ids(reader, &division, first);
         let bodies = self.bodies(reader, &division, &ids, first);
         let (pieces, locks) = self.pieces(reader, &division, &ids);
-        let (mut welds, mut places) = (Vec::new(), Vec::new());
-        let mut named = self.places.iter();
+        let mut welds = Vec::new();
         for (k, s) in division.at.iter().enumerate() {
-            if division.named[k] {
-                let [x, y, _] = self.line.place(reader, s);
-                places.extend(named.next().map(|(name, ..)| (name.clone(), Local { x, y })));
-            }
             if k > 0 {
                 // a chain, so that the factors of the rigid form stay sparse
                 let [x, y, angle] = self.line.step(reader, &division.at[k - 1], s);
@@ -202,7 +195,7 @@ impl BeamParts {
                 welds.push((name, welded(i, j, angle)));
             }
         }
-        Linked { bodies, pieces, locks, welds, places }
+        Linked { bodies, pieces, locks, welds }
     }
 
     /// The bodies of the nodes along the beam.

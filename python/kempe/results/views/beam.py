@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 _STATIONS = 5
 #: The results of an element, each in all places.
 _ALONG = ("s", "x", "y", "angle", "normal_force", "shear_force", "bending_moment", "stress")
+#: Largest relative jump of the bending moment between elements that counts as small.
+_SMALL = 1e-3
+#: Bending below this angle, or this part of the moment of the other forces, is a rounding error.
+_ROUNDING = 1e-9
 #: The results of an element as a whole: name, unit, and how those of all elements are joined.
 WHOLE = (
     ("stress", "Pa", np.max),
@@ -163,12 +167,27 @@ class BeamView:
         """
         moment = self.bending_moment
         largest = np.abs(moment).max(initial=0.0)
+        forces = np.abs([self.normal_force, self.shear_force]).max(initial=0.0)
+        turned = 2.0 * np.max(self.strain_energy) / largest if largest > 0.0 else 0.0
+        if turned < _ROUNDING or largest < _ROUNDING * forces * self.s[-1]:
+            return 0.0
         # a joint or torque at a named point may make the moment jump
         ends = [self._motion.compiled.forces[piece].j for piece in self._pieces[:-1]]
         inner = [k for k, node in enumerate(ends) if ".#" in node]
         after = [_STATIONS * (k + 1) for k in inner]
         jumps = np.abs(moment[..., after] - moment[..., [k - 1 for k in after]])
-        return float(jumps.max(initial=0.0) / largest) if largest > 0.0 else 0.0
+        return float(jumps.max(initial=0.0) / largest)
+
+    @property
+    def enough(self) -> int:
+        """Number of elements with which ``error`` would be about 1e-3, or that of the beam.
+
+        The jumps of the bending moment decrease with the square of the length of the elements.
+        """
+        more = np.sqrt(self.error / _SMALL)
+        return max(len(self._tables), int(np.ceil(more * len(self._tables))))
 
     def __repr__(self) -> str:
-        return f"<beam {self.name!r}: {len(self._tables)} elements, {self.s[-1]:g} m>"
+        error, enough = self.error, self.enough
+        more = f", error {error:.1e}: {enough} are enough" if enough > len(self._tables) else ""
+        return f"<beam {self.name!r}: {len(self._tables)} elements, {self.s[-1]:g} m{more}>"
