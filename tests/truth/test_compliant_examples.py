@@ -57,7 +57,7 @@ def shallow(rise: float, axial: float, d: float) -> tuple[float, float]:
     """Force of a shallow strip of length 1 and EI = 1, and u = sqrt(P) of its compression P.
 
     The strip w0 = rise (2x - x²) is hinged at x = 0 and clamped at the shuttle, x = 1, which has
-    moved down by d. With the compression P = u², w = a + b x + c cos ux + e sin ux 
+    moved down by d. With the compression P = u², w = a + b x + c cos ux + e sin ux
     w″″ + u² w″ = 0, w(0) = 0, w″(0) = w0″, w′(1) = 0 and w(1) = rise - d.
     """
 
