@@ -8,6 +8,7 @@ with ten elements; both programs approach it.
 
 from __future__ import annotations
 
+import itertools
 import time
 from typing import Any
 
@@ -40,18 +41,18 @@ def by_kempe(elements: int, tol: float = 1e-6) -> tuple[np.ndarray, float]:
 def by_exudyn(elements: int, steps: int = 600) -> tuple[np.ndarray, float]:
     """The same by Exudyn's generalized-alpha method."""
     import exudyn as exu
-    from exudyn import itemInterface as item
+    from exudyn import itemInterface
 
     container = exu.SystemContainer()
     mbs: Any = container.AddSystem()
     step = LENGTH / elements
     nodes = [
-        mbs.AddNode(item.NodeRigidBody2D(referenceCoordinates=[k * step, 0, 0]))
+        mbs.AddNode(itemInterface.NodeRigidBody2D(referenceCoordinates=[k * step, 0, 0]))
         for k in range(elements + 1)
     ]
-    for a, b in zip(nodes, nodes[1:], strict=False):
+    for a, b in itertools.pairwise(nodes):
         beam = mbs.AddObject(
-            item.ObjectBeamGeometricallyExact2D(
+            itemInterface.ObjectBeamGeometricallyExact2D(
                 nodeNumbers=[a, b],
                 length=step,
                 massPerLength=MASS,
@@ -64,13 +65,13 @@ def by_exudyn(elements: int, steps: int = 600) -> tuple[np.ndarray, float]:
                 shearDamping=DAMPING * GA,
             )
         )
-        marker = mbs.AddMarker(item.MarkerBodyMass(bodyNumber=beam))
-        mbs.AddLoad(item.LoadMassProportional(markerNumber=marker, loadVector=[0, -G, 0]))
-    ground = mbs.AddNode(item.NodePointGround())
-    fixed = mbs.AddMarker(item.MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
+        marker = mbs.AddMarker(itemInterface.MarkerBodyMass(bodyNumber=beam))
+        mbs.AddLoad(itemInterface.LoadMassProportional(markerNumber=marker, loadVector=[0, -G, 0]))
+    ground = mbs.AddNode(itemInterface.NodePointGround())
+    fixed = mbs.AddMarker(itemInterface.MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
     for coordinate in (0, 1):
-        own = item.MarkerNodeCoordinate(nodeNumber=nodes[0], coordinate=coordinate)
-        mbs.AddObject(item.CoordinateConstraint(markerNumbers=[fixed, mbs.AddMarker(own)]))
+        own = itemInterface.MarkerNodeCoordinate(nodeNumber=nodes[0], coordinate=coordinate)
+        mbs.AddObject(itemInterface.CoordinateConstraint(markerNumbers=[fixed, mbs.AddMarker(own)]))
     mbs.Assemble()
     settings = exu.SimulationSettings()
     settings.timeIntegration.numberOfSteps = steps

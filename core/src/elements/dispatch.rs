@@ -235,7 +235,11 @@ macro_rules! constraints {
         #[allow(clippy::vec_init_then_push)] // some entries exist only with a feature
         fn constraint_tables() -> Vec<(Group, Table)> {
             let mut all = Vec::new();
-            $($($(#[$on])* all.push(declared::<$Name>(Group::$Group));)+)+
+            $($($(#[$on])* {
+                if <$Name as Joint>::IN_FILES {
+                    all.push(declared::<$Name>(Group::$Group));
+                }
+            })+)+
             all
         }
     };

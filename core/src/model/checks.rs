@@ -31,9 +31,7 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
         }
         if !body.shapes.is_empty() {
             shape_checks::shapes(body, problems);
-        } else if body.kind == BEAM || body.kind == NODE {
-            beam(body, problems);
-        } else if body.name != "ground" {
+        } else {
             possible(body, problems);
         }
     }
@@ -103,6 +101,11 @@ fn check(path: &[&str], x: f64, problems: &mut Vec<Problem>) {
 }
 
 fn possible(body: &Body, problems: &mut Vec<Problem>) {
+    match body.kind {
+        BEAM | NODE => return beam(body, problems),
+        "ground" => return,
+        _ => {}
+    }
     let path = |key: &str| ["bodies".to_string(), body.name.clone(), key.to_string()];
     if !(body.mass.is_finite() && body.mass >= 0.0) {
         let must = if body.mass < 0.0 { "not be negative" } else { "be finite" };

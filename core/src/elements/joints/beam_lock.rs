@@ -17,7 +17,7 @@ use crate::math::{each, indexed, Local, Pose, Real, Vec2};
 
 element! {
     /// Lock of a strain of a piece of a beam between four nodes.
-    BeamLock, "beam lock" {
+    BeamLock, "beam_lock" {
         /// First node.
         i: body,
         /// Last node.

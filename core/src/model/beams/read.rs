@@ -16,16 +16,19 @@ use crate::elements::{
 use crate::expression::Tape;
 use crate::math::{Listed, Local};
 
+/// Elements with their names.
+type Named<E> = Vec<(String, E)>;
+
 /// A linked beam.
 pub struct Linked {
     /// Its nodes: the first end, then in the order of [`nodes::names`].
     pub bodies: Vec<Body<Tape>>,
     /// Its elastic pieces.
-    pub pieces: Vec<(String, ForceElement<Tape>)>,
+    pub pieces: Named<ForceElement<Tape>>,
     /// The locks of their strains, which hold in the elastic form only.
-    pub locks: Vec<(String, Constraint<Tape>)>,
+    pub locks: Named<Constraint<Tape>>,
     /// The welds that carry its nodes in the rigid form of the model.
-    pub welds: Vec<(String, Constraint<Tape>)>,
+    pub welds: Named<Constraint<Tape>>,
 }
 
 /// Reads a beam whose first node has the index `first`.
@@ -249,7 +252,7 @@ impl BeamParts {
         reader: &mut Reader<'_>,
         division: &Division,
         ids: &[BodyId],
-    ) -> (Vec<(String, ForceElement<Tape>)>, Vec<(String, Constraint<Tape>)>) {
+    ) -> (Named<ForceElement<Tape>>, Named<Constraint<Tape>>) {
         let of = &self.stiffness;
         let locked = [("inextensible", true), ("shear", false)]
             .map(|(key, by)| reader.entry.get(key) == Some(&Value::Flag(by)));

@@ -43,7 +43,7 @@ def has_stress(compiled: CompiledModel, name: str) -> bool:
 
 
 def locks(compiled: CompiledModel, name: str, strain: str) -> list[str]:
-    """The locks of a strain of a beam, ``inextensible`` or ``unsheared``; none if it has none."""
+    """The locks ``inextensible`` or ``unsheared`` of a beam; empty if it has none."""
     of = (lock.name for lock in compiled.locks(name))
     return [lock for lock in of if lock.startswith(f"{name}.{strain}_")]
 
@@ -87,7 +87,7 @@ class BeamView:
         return [self._motion.force_results(name) for name in self._pieces]
 
     def _locked(self, strain: str, first: int) -> Floats | None:
-        """Results of the locks of a strain from column ``first``; None if the beam has the strain."""
+        """Results of the locks from column ``first``; None if the beam has the strain."""
         names = locks(self._motion.compiled, self.name, strain)
         if not names:
             return None
