@@ -69,6 +69,9 @@ INSTANTS = {
     "balanced_lamp": 0.5,
     "roberval_balance": 1.0,
     "trebuchet": 0.5,
+    "leaf_spring_guide": 1.0,
+    "cross_spring_pivot": 1.0,
+    "bistable_switch": 0.35,
 }
 #: Paragraphs of examples whose files have no comment below the title, or a short one.
 PARAGRAPHS = {

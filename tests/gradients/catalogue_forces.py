@@ -305,8 +305,30 @@ def bending(of: Units) -> Made:
     return Made(m, measures, {}, end=0.3, analyses=RESTS)
 
 
+def tapered(of: Units) -> Made:
+    """A tapered beam without shear and stretch, with a load at its tip."""
+    s, pressure = of.size, of.force / of.size**2
+    m = of.model(
+        L=(1, s),
+        h=(0.12, s),
+        w=(0.1, s),
+        E=(2e5, pressure),
+        rho=(80, of.mass / s**3),
+        p=(2, of.force),
+    )
+    m.ground.points(O=(0, 0))
+    section = kp.Section.rectangle(height="h*(1 - 0.4*s/L)", width="w")
+    given = {"young": "E", "density": "rho", "shear": False, "inextensible": True}
+    m.beam("rod", length="L", section=section, elements=2, damping=0.01 / of.rate, **given)
+    m.weld("clamp", "ground.O", "rod.A")
+    m.force("load", "rod.B", force=("p/2", "-p"))
+    measures = ["rod.B.y.final", "rod.stress.final", "clamp.torque.final"]
+    return Made(m, measures, {}, end=0.3, analyses=RESTS)
+
+
 FORCES: list[Maker] = [
     bending,
+    tapered,
     spiral,
     coil,
     resting_coil,

@@ -12,11 +12,12 @@ import pytest
 
 SECTION = kp.Section.rectangle(height=0.01, width=0.01)
 GIVEN: dict[str, Any] = {"length": 1, "section": SECTION, "young": 1e9, "density": 1e3}
+WITHOUT: dict[str, Any] = {"section": None, "young": None, "density": None}
 LOOP = [(0, 0), (1, 1), (1, 0), (0, 1)]
 
 
-def clamped(**fields: Any) -> kp.Model:
-    m = kp.Model("clamped")
+def clamped(parameters: dict[str, float] | None = None, **fields: Any) -> kp.Model:
+    m = kp.Model("clamped", parameters=parameters or {})
     m.ground.points(O=(0, 0))
     m.beam("rod", **{key: x for key, x in {**GIVEN, **fields}.items() if x is not None})
     m.weld("clamp", "ground.O", "rod.A")
@@ -44,8 +45,12 @@ def clamped(**fields: Any) -> kp.Model:
         ({"section": kp.Section.tube(0.01, 0.02)}, "larger than the inner one"),
         ({"poisson": 0.7}, "between -1 and 0.5"),
         ({"damping": -1}, "must be ≥ 0"),
-        ({"shear": False}, "remove shear, and give GA or a section"),
-        ({"inextensible": True}, "remove inextensible, and give EA or a section"),
+        ({**WITHOUT, "EA": 1, "EI": 1, "mass_per_length": 1}, "shear = false needs no GA"),
+        ({**WITHOUT, "GA": 1, "EI": 1, "mass_per_length": 1}, "inextensible = true needs no EA"),
+        (
+            {**WITHOUT, "EI": 1, "mass_per_length": 1, "shear": False, "inextensible": True},
+            "'inertia_per_length' is missing",
+        ),
     ],
 )
 def test_bad_input_is_refused(fields: dict[str, Any], words: str) -> None:
@@ -62,12 +67,53 @@ def test_a_beam_without_mass_has_equilibria_only() -> None:
     assert kp.equilibrium(m, start).state["rod.B.x"] == pytest.approx(1)
 
 
-def test_drivers_do_not_determine_a_beam() -> None:
+def test_the_equilibrium_over_a_driver_takes_the_place_of_kinematics() -> None:
     m = clamped(elements=2)
+    with pytest.raises(kp.KempeError, match=r"shape of beam rod.*drive a coordinate"):
+        kp.kinematics(m, kp.assemble(m), t_end=0.1)
+    m.coordinate_driver("tip", "rod.B.y", value="-0.1*t^2")
     start = kp.assemble(m)
-    with pytest.raises(kp.KempeError, match=r"shape of beam rod.*equilibrium"):
+    remedy = r"make the value of tip a parameter p .* kp.equilibrium\(model, state, over=\"p\""
+    with pytest.raises(kp.KempeError, match=remedy):
         kp.kinematics(m, start, t_end=0.1)
-    assert kp.equilibrium(m, start).stable
+    # the remedy: EI = 1e9 × 1e-8/12, and the tip force is 3 EI y/L³
+    m = clamped(elements=2, parameters={"p": 0.0})
+    m.coordinate_driver("tip", "rod.B.y", value="p")
+    path = kp.equilibrium(m, kp.assemble(m), over="p", range=(0, -0.01))
+    assert path.states[-1]["rod.B.y"] == pytest.approx(-0.01)
+    assert path.states[-1]["tip.effort"] == pytest.approx(-3 * 10 / 12 * 0.01, rel=3e-3)
+
+
+@pytest.mark.parametrize(
+    ("fields", "expected"),
+    [
+        ({}, 4),
+        ({"points": {"P": 0.2, "Q": 0.4}}, 6),
+        ({"length": None, "arc": (0, 0, 1, 0, 1)}, 8),
+        ({"length": None, "through": [(k / 10, k * k / 100) for k in range(12)]}, 11),
+        ({"length": None, "through": [(0, 0), (1, 1)]}, 4),
+        ({"elements": 3}, 3),
+    ],
+)
+def test_the_number_of_elements_follows_from_the_shape(
+    fields: dict[str, Any], expected: int
+) -> None:
+    beam = kp.assemble(clamped(**fields)).beam("rod")
+    assert len(beam.s) == 5 * expected
+    assert beam.enough == expected  # without loads
+
+
+def test_enough_elements_have_a_small_error() -> None:
+    def bent(elements: int) -> Any:
+        m = clamped(elements=elements)
+        m.force("load", "rod.B", force=(0, -10.0))
+        return kp.equilibrium(m, kp.assemble(m)).state.beam("rod")
+
+    few = bent(2)
+    assert few.error > 1e-3
+    assert 2 < few.enough < 20
+    assert bent(few.enough).error < 1.5e-3
+    assert bent(few.enough // 2).error > 2e-3
 
 
 def test_lists_show_a_beam_as_one() -> None:

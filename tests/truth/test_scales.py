@@ -15,7 +15,12 @@ from scaled import Scaled
 from sizes import some
 
 pytestmark = pytest.mark.filterwarnings("ignore")
-EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
+#: Sections of beams are tables, which ``Scaled`` leaves; ``test_compliant_examples`` varies sizes.
+EXAMPLES = [
+    path
+    for path in sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
+    if 'type = "beam"' not in path.read_text(encoding="utf-8")
+]
 #: Factors of length and mass.
 FACTORS = [(1024.0, 1.0), (1 / 1024, 1024.0), (1 / 1024, 1 / 1024)]
 

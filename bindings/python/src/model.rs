@@ -312,6 +312,7 @@ fn constraint(model: &Model, k: usize) -> Value {
         "name": item.name,
         "group": item.group.section(),
         "type": item.element.kind(),
+        "is_shown": item.element.in_files(),
         "i": i,
         "j": j,
         "point_i": pair(&item.element.attachment(0).s),

@@ -78,7 +78,8 @@ fn loads(model: &Model, motions: &Motions, acting: Acting<'_, f64>, lam: &[f64])
             "force": [load.force.x, load.force.y], "moment": load.torque,
         }));
     };
-    for (k, item) in model.constraints.iter().enumerate() {
+    let shown = model.constraints.iter().enumerate().filter(|(_, item)| item.element.in_files());
+    for (k, item) in shown {
         let own = &lam[model.layout.constraints[k].rows.clone()];
         let kind = item.group.section().trim_end_matches('s');
         for on in touched(model, k) {

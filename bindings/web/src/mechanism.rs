@@ -9,7 +9,8 @@ use serde_json::{json, Map, Value};
 /// Bodies, elements, parameters and analyses of a model.
 pub fn mechanism(case: &Case, model: &Model) -> Value {
     let group = |group: Group| -> Vec<Value> {
-        let items = model.constraints.iter().filter(|item| item.group == group);
+        let items = model.constraints.iter();
+        let items = items.filter(|item| item.group == group && item.element.in_files());
         items.map(|item| json!({ "name": item.name, "type": item.element.kind() })).collect()
     };
     let forces = model.listed_forces().iter();

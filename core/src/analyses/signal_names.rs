@@ -4,7 +4,7 @@ use super::signals::{Energy, ForcePart, Signal};
 use crate::elements::{BodyId, Followed, Measured};
 use crate::equations::measured::{offered, ElementId};
 use crate::math::Listed;
-use crate::model::{beam_of, is_inner, Columns, Model, BEAM};
+use crate::model::{beam_of, is_inner, is_stretch_lock, Columns, Model, BEAM};
 
 /// The quantities of one owner with their names.
 type Family = Vec<(String, Signal)>;
@@ -36,7 +36,8 @@ fn owners(model: &Model) -> Vec<String> {
         let points = body.points.iter().map(|(point, _)| format!("{}.{point}", body.name));
         std::iter::once(body.name.clone()).chain(points)
     });
-    let constraints = model.constraints.iter().map(|item| item.name.clone());
+    let constraints = model.constraints.iter().filter(|item| item.element.in_files());
+    let constraints = constraints.map(|item| item.name.clone());
     let of_file = model.listed_forces().iter().filter(|item| item.element.in_files());
     let forces = of_file.map(|item| item.name.clone());
     let of_run = ["energy", "drift"].map(str::to_string);
@@ -103,13 +104,22 @@ fn of_beam(model: &Model, beam: &str, found: &mut Family) {
     };
     let pieces = (0..model.forces.len()).filter(of_it).list();
     let Some(first) = pieces.first() else { return };
-    let results = model.forces[*first].element.result_quantities();
+    let has_stress = model.forces[*first].element.has_stress();
+    // the multipliers contain the normal force of an inextensible beam
+    let locks =
+        (0..model.constraints.len()).filter(|k| is_stretch_lock(&model.constraints[*k].name, beam));
+    let locks = locks.map(ElementId::Constraint).list();
+    let pieces = pieces.into_iter().map(ElementId::Force).list();
     for (name, sum) in [("stress", false), ("bending_moment", false), ("strain_energy", true)] {
+        let of = if name == "stress" && !locks.is_empty() { &locks } else { &pieces };
+        let results = match of[0] {
+            ElementId::Constraint(k) => model.constraints[k].element.result_quantities(),
+            ElementId::Force(k) => model.forces[k].element.result_quantities(),
+        };
         let place = results.iter().position(|known| known.name == name);
-        let known = name != "stress" || model.forces[*first].element.has_stress();
         let signal = place
-            .filter(|_| known)
-            .map(|place| (name.to_string(), Signal::OfBeam { pieces: pieces.clone(), place, sum }));
+            .filter(|_| name != "stress" || has_stress)
+            .map(|place| (name.to_string(), Signal::OfBeam { pieces: of.clone(), place, sum }));
         found.extend(signal);
     }
 }

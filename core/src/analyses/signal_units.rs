@@ -3,7 +3,7 @@
 use super::signal_names::COORDINATES;
 use super::signals::{Energy, ForcePart, Signal};
 use crate::elements::QuantityKind;
-use crate::equations::measured::offered;
+use crate::equations::measured::{offered, ElementId};
 use crate::model::Model;
 
 /// The SI unit of a quantity, such as `rad/s`; `m or rad` for the largest violation of constraints of both kinds.
@@ -19,7 +19,11 @@ pub(super) fn unit_of(model: &Model, name: &str, signal: &Signal) -> String {
             model.forces[*k].element.result_quantities()[*place].unit.to_string()
         }
         Signal::OfBeam { pieces, place, .. } => {
-            model.forces[pieces[0]].element.result_quantities()[*place].unit.to_string()
+            let results = match pieces[0] {
+                ElementId::Constraint(k) => model.constraints[k].element.result_quantities(),
+                ElementId::Force(k) => model.forces[k].element.result_quantities(),
+            };
+            results[*place].unit.to_string()
         }
         Signal::Result { k, place } => {
             model.constraints[*k].element.result_quantities()[*place].unit.to_string()

@@ -98,8 +98,8 @@ pub(super) enum Signal {
     Line { id: ElementId },
     /// A result of a force element other than its wrenches.
     ForceResult { k: usize, place: usize },
-    /// A result of all force elements in a list: the largest, or the sum.
-    OfBeam { pieces: Vec<usize>, place: usize, sum: bool },
+    /// A result of the pieces of a beam: the largest, or the sum.
+    OfBeam { pieces: Vec<ElementId>, place: usize, sum: bool },
     /// Power of a force element on its bodies.
     ForcePower(usize),
     /// Energy that a force element stores.
@@ -135,7 +135,8 @@ impl Signal {
             Self::ForceResult { k, .. } | Self::ForceDissipated(k) | Self::ForceDissipating(k) => {
                 model.forces[*k].needs_multipliers()
             }
-            Self::Constant(_) | Self::State(_) | Self::Energy(_) | Self::OfBeam { .. } => false,
+            Self::Constant(_) | Self::State(_) | Self::Energy(_) => false,
+            Self::OfBeam { pieces, .. } => matches!(pieces[..], [ElementId::Constraint(_), ..]),
             Self::Drift { .. } => false,
         }
     }
@@ -181,19 +182,17 @@ impl Signal {
                 [jet.value, jet.rate, jet.second][*order]
             }
             Self::Reaction { k, part } => part.of(&reaction(model, *k, lam, seen)),
-            Self::Result { k, place } => {
-                let mut out =
-                    vec![S::zero(); model.constraints[*k].element.result_quantities().len()];
-                reactions::results(model, *k, seen.motions, seen.t, own(model, *k, lam), &mut out);
-                out[*place]
-            }
+            Self::Result { k, place } => result(model, *k, *place, seen),
             Self::Effort(k) => -own(model, *k, lam)[0],
             Self::Power(k, rate) => -own(model, *k, lam)[0] * rate.value(model, seen),
             Self::Force { k, part } => part.of(&force_on_j(model, *k, seen)),
             Self::Line { id } => line(model, *id, seen),
             Self::ForceResult { k, place } => force_result(model, *k, *place, seen),
             Self::OfBeam { pieces, place, sum } => {
-                let of = |k: &usize| force_result(model, *k, *place, seen);
+                let of = |id: &ElementId| match id {
+                    ElementId::Constraint(k) => result(model, *k, *place, seen),
+                    ElementId::Force(k) => force_result(model, *k, *place, seen),
+                };
                 pieces
                     .iter()
                     .map(of)
@@ -231,6 +230,14 @@ fn reaction<S: Real>(model: &Model<S>, k: usize, lam: &[S], seen: &Seen<'_, S>) 
     let (on, own) = (body_j(&model.constraints[k].bodies), own(model, k, lam));
     let found = reactions::reaction(model, k, on, Frame::Global, seen.motions, seen.t, own);
     found.unwrap_or_else(Wrench::zero)
+}
+
+/// A result of a joint or driver.
+fn result<S: Real>(model: &Model<S>, k: usize, place: usize, seen: &Seen<'_, S>) -> S {
+    let mut out = vec![S::zero(); model.constraints[k].element.result_quantities().len()];
+    let lam = own(model, k, seen.solved[1]);
+    reactions::results(model, k, seen.motions, seen.t, lam, &mut out);
+    out[place]
 }
 
 fn force_result<S: Real>(model: &Model<S>, k: usize, place: usize, seen: &Seen<'_, S>) -> S {

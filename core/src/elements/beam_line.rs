@@ -28,6 +28,24 @@ pub const WEIGHTS: [f64; 3] = [5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0];
 /// The interpolation in the Gauss points.
 pub const AT_GAUSS: [Interpolated; 3] = [at(GAUSS[0]), at(GAUSS[1]), at(GAUSS[2])];
 
+/// Number of places at which results are reported: both ends and the Gauss points.
+pub const STATIONS: usize = 5;
+/// Their interpolation.
+pub const AT_STATIONS: [Interpolated; STATIONS] =
+    [at(-1.0), AT_GAUSS[0], AT_GAUSS[1], AT_GAUSS[2], at(1.0)];
+
+/// A quantity in the stations: in the Gauss points as given, and at the ends that of the parabola through them.
+pub fn in_stations<S: Real>(of: [S; 3]) -> [S; STATIONS] {
+    let x = GAUSS[2];
+    // Lagrange's formula at ξ = ±1
+    let near = S::constant((1.0 + x) / (2.0 * x * x));
+    let far = S::constant((1.0 - x) / (2.0 * x * x));
+    let middle = S::constant(1.0 - 1.0 / (x * x));
+    let first = near * of[0] + middle * of[1] + far * of[2];
+    let last = far * of[0] + middle * of[1] + near * of[2];
+    [first, of[0], of[1], of[2], last]
+}
+
 /// Values of the four polynomials of the nodes, and their derivatives with respect to ξ.
 #[derive(Clone, Copy, Debug)]
 pub struct Interpolated {

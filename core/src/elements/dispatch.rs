@@ -22,7 +22,7 @@ macro_rules! constraints {
             /// Reads an element by the name of its type. The outer option is None if there is no such type.
             pub fn read(group: Group, kind: &str, source: &mut dyn Source) -> Option<Option<Self>> {
                 $($($(#[$on])* {
-                    if group == Group::$Group && kind == <$Name>::NAME {
+                    if group == Group::$Group && kind == <$Name>::NAME && <$Name as Joint>::IN_FILES {
                         return Some(<$Name>::read(source).map(Self::$Name));
                     }
                 })+)+
@@ -64,6 +64,10 @@ macro_rules! constraints {
             /// Whether the element may have friction.
             pub fn rubs(&self) -> bool {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::RUBS,)+)+ }
+            }
+            /// Whether files contain elements of its type.
+            pub fn in_files(&self) -> bool {
+                match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::IN_FILES,)+)+ }
             }
             /// Number of internal coordinates.
             pub fn own(&self) -> usize {
@@ -231,7 +235,11 @@ macro_rules! constraints {
         #[allow(clippy::vec_init_then_push)] // some entries exist only with a feature
         fn constraint_tables() -> Vec<(Group, Table)> {
             let mut all = Vec::new();
-            $($($(#[$on])* all.push(declared::<$Name>(Group::$Group));)+)+
+            $($($(#[$on])* {
+                if <$Name as Joint>::IN_FILES {
+                    all.push(declared::<$Name>(Group::$Group));
+                }
+            })+)+
             all
         }
     };

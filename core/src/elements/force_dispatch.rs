@@ -166,6 +166,10 @@ macro_rules! forces {
         }
 
         impl<S: Real> ForceElement<S> {
+            /// A length of the element that counts for the size of the mechanism.
+            pub fn reach(&self) -> Option<S> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::reach(e),)+ }
+            }
             /// The wrench of each part on each body, see [`Force::action`].
             pub fn action(&self, at: &Situation<'_, S>, out: &mut dyn Wrenches<S>) {
                 // one type for all receivers, so that each force is compiled once for them

@@ -361,16 +361,17 @@ pub trait Force: Element {
     }
 
     /// Whether the dimensions that give a stress are known.
-    #[inline]
-    fn has_stress(e: &Self::Over<f64>) -> bool {
-        let _ = e;
+    fn has_stress(_: &Self::Over<f64>) -> bool {
         false
     }
 
+    /// A length of the element that counts for the size of the mechanism, m.
+    fn reach<S: Real>(_: &Self::Over<S>) -> Option<S> {
+        None
+    }
+
     /// The symbols of the element in a drawing. A varying law is NaN here.
-    #[inline]
-    fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {
-        let _ = e;
+    fn symbols(_: &Self::Over<f64>) -> Vec<SceneSymbol> {
         Vec::new()
     }
 

@@ -169,6 +169,9 @@ pub trait Joint: Element {
     /// friction.
     const RUBS: bool = false;
 
+    /// Whether files contain elements of the type. Others are made by the reader of bodies.
+    const IN_FILES: bool = true;
+
     /// Results in addition to the reaction, in the order of [`Joint::results`].
     const RESULTS: &'static [ResultQuantity] = &[];
 

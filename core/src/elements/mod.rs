@@ -47,6 +47,7 @@ mod written;
 
 /// Joints: holonomic constraints between bodies, without time.
 pub mod joints {
+    mod beam_lock;
     mod belt;
     mod coupling;
     mod distance;
@@ -62,6 +63,7 @@ pub mod joints {
     mod translational;
     mod weld;
 
+    pub use beam_lock::BeamLock;
     pub use belt::Belt;
     pub use coupling::Coupling;
     pub use distance::Distance;
@@ -188,6 +190,7 @@ constraints! {
         FlatOnCurve,
         Coupling,
         GivenConstraint,
+        BeamLock,
         #[cfg(feature = "test-elements")] TurnedPin,
         #[cfg(feature = "test-elements")] Bead,
         #[cfg(feature = "test-elements")] Levels,
@@ -260,6 +263,30 @@ pub struct PieceNumbers {
     pub damping: Option<Tape>,
     /// Stress for a normal force of 1 N, and at the faces for a bending moment of 1 N·m.
     pub stresses: [[Tape; 3]; 2],
+}
+
+/// The lock of the strain along an axis of the sections of a piece, 0 for stretch and 1 for shear.
+pub fn beam_lock(nodes: [BodyId; 4], axis: usize, numbers: &PieceNumbers) -> Constraint<Tape> {
+    let [i, second, third, j] = nodes;
+    let PieceNumbers { length, stiffness, strains, stresses, .. } = numbers.clone();
+    let [_, _, bending] = stiffness;
+    let [stretch, slide, curvature] = strains;
+    let [by_force, by_moment] = stresses;
+    let along = [0, 1].map(|k| Tape::from(f64::from(u8::from(k == axis))));
+    Constraint::BeamLock(BeamLock {
+        i,
+        j,
+        second,
+        third,
+        length,
+        along,
+        stretch,
+        slide,
+        curvature,
+        bending,
+        by_force,
+        by_moment,
+    })
 }
 
 /// An elastic piece of a beam between four nodes in the order of the arc length.

@@ -47,7 +47,7 @@ fn material() -> Vec<Field> {
                 Shape::Section,
                 "m",
                 "Cross section: { rectangle = [height, width] }, { circle = diameter } or { tube = [outer, inner] } \
-                with diameters. The height lies in the plane.",
+                with diameters. The height lies in the plane. Formulas may use the arc length s.",
             ),
             number("young", "Pa", "Young's modulus of a section."),
             number("poisson", "", "Poisson's ratio of a section; 0.3 if absent."),
@@ -67,7 +67,8 @@ fn material() -> Vec<Field> {
 fn more() -> Vec<Field> {
     vec![
             number("damping", "s", "Damping in proportion to stiffness: efforts per rate of strain / stiffness."),
-            absent("elements", Shape::Count, "", "Number of elements of the third degree; 4 if absent, or 2 for each part between named points."),
+            absent("elements", Shape::Count, "", "Number of elements of the third degree. If absent, 4, or 8 of a curved beam and at least one for each \
+                part of 'through'; at least 2 for each part between named points."),
             absent(
                 "points",
                 Shape::Terms,

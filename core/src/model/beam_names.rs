@@ -13,6 +13,15 @@ pub const NODE: &str = "node";
 /// The end of the name of a weld of the rigid form.
 pub const WELD: &str = " (rigid)";
 
+/// The locks of stretch and shear, in the names of the constraints that keep a piece from either.
+pub const LOCKS: [&str; 2] = ["inextensible", "unsheared"];
+
+/// Whether a constraint locks the stretch of a piece of a beam.
+pub fn is_stretch_lock(name: &str, beam: &str) -> bool {
+    let piece = name.strip_prefix(beam).and_then(|of| of.strip_prefix('.'));
+    piece.is_some_and(|of| of.strip_prefix(LOCKS[0]).is_some_and(|of| of.starts_with('_')))
+}
+
 /// Whether an entry of the bodies is a beam.
 pub fn is_beam(entry: &Entry) -> bool {
     matches!(entry.get("type"), Some(Value::Text(kind)) if kind == BEAM)
@@ -21,6 +30,15 @@ pub fn is_beam(entry: &Entry) -> bool {
 /// Whether a constraint of this name is a weld of the rigid form.
 pub fn is_weld(name: &str) -> bool {
     name.ends_with(WELD)
+}
+
+/// The name by which messages call a constraint: that of the beam for a weld of its rigid form.
+pub fn shown(name: &str) -> &str {
+    if is_weld(name) {
+        beam_of(name)
+    } else {
+        name
+    }
 }
 
 /// Whether a body is a node of a beam without a name of the file.
@@ -33,8 +51,10 @@ pub fn beam_of(name: &str) -> &str {
     name.split_once('.').map_or(name, |(beam, _)| beam)
 }
 
-/// Number of elements if it is not given.
+/// Number of elements if it is not given: of a straight beam, and of a curved one, with at least one element between
+/// two points of `through`.
 const DEFAULT_ELEMENTS: usize = 4;
+const CURVED_ELEMENTS: usize = 8;
 /// Nodes that an element adds.
 pub const PER_ELEMENT: usize = 3;
 
@@ -67,10 +87,15 @@ pub fn written(entry: &Entry) -> Option<usize> {
 /// Largest number of elements of a beam.
 pub const MOST: f64 = 10_000.0;
 
-/// The number of elements: at least one between two places with names.
+/// The number of elements: at least one between two places with names, and two if no number is given.
 pub fn elements(entry: &Entry) -> usize {
     let least = points(entry).len() + 1;
-    written(entry).unwrap_or(DEFAULT_ELEMENTS.max(2 * least)).max(least)
+    let by_shape = match (entry.get("through"), entry.get("arc")) {
+        (Some(Value::List(points)), _) if points.len() > 2 => CURVED_ELEMENTS.max(points.len() - 1),
+        (_, Some(_)) => CURVED_ELEMENTS,
+        _ => DEFAULT_ELEMENTS,
+    };
+    written(entry).unwrap_or(by_shape.max(2 * least)).max(least)
 }
 
 /// The name of node `k` between the places with names, counted along the beam.

@@ -203,7 +203,8 @@ impl Blueprint {
         let own = |name: &str| self.constraints.iter().any(|(known, ..)| known == name);
         let kept = rigid.constraints.iter().filter(|(name, ..)| own(name) || is_weld(name));
         let known = |name: &str| rigid.constraints.iter().any(|(known, ..)| known == name);
-        let further = self.constraints.iter().filter(|(name, ..)| !known(name));
+        let further = self.constraints.iter();
+        let further = further.filter(|(name, _, of)| !known(name) && of.in_files());
         let constraints = kept.chain(further).cloned().list();
         Some(Self {
             constraints: constraints.into(),

@@ -2,7 +2,6 @@
 
 use super::blueprint::Blueprint;
 use super::definition::{Definition, Value};
-use super::items::Body;
 use super::model::Model;
 use super::parameters::{self, Evaluated};
 use super::problem::Problem;
@@ -48,12 +47,12 @@ pub fn build(
         phases: Vec::new(),
         rigid: None,
     };
-    let mut rigid = (!linked.is_empty()).then(|| blueprint.clone());
     blueprint.link_all(definition, &scope, &quantities, &mut problems);
-    if let Some(rigid) = rigid.as_mut().filter(|_| problems.is_empty()) {
-        link_rigid(rigid, (definition, &scope), (&bodies, &linked), &mut problems);
+    if !linked.is_empty() && problems.is_empty() {
+        let mut rigid = Blueprint { allow_redundancy: true, ..blueprint.clone() };
+        beams::weld(&mut rigid, &linked);
+        blueprint.rigid = Some(Arc::new(rigid));
     }
-    blueprint.rigid = rigid.map(Arc::new);
     beams::connect(&mut blueprint, linked);
     blueprint.add_companions();
     for (k, unit) in scope.units.take() {
@@ -71,21 +70,6 @@ pub fn build(
     } else {
         Err(problems)
     }
-}
-
-/// Links the form of the mechanism in which beams are rigid.
-fn link_rigid(
-    rigid: &mut Blueprint,
-    (definition, scope): (&Definition, &Scope),
-    (bodies, beams): (&[Body<Tape>], &[beams::Linked]),
-    problems: &mut Vec<Problem>,
-) {
-    let bodies = beams::rigid_bodies(bodies, beams);
-    let quantities = Elements::new(definition, scope, &bodies);
-    rigid.bodies = bodies.clone().into();
-    rigid.allow_redundancy = true;
-    rigid.link_all(definition, scope, &quantities, problems);
-    beams::weld(rigid, beams);
 }
 
 fn gravity(definition: &Definition, scope: &Scope, problems: &mut Vec<Problem>) -> [Tape; 2] {

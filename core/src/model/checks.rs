@@ -34,7 +34,7 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
         }
         if !body.shapes.is_empty() {
             shape_checks::shapes(body, problems);
-        } else if body.name != "ground" && body.kind != NODE {
+        } else {
             possible(body, problems);
         }
     }
@@ -45,7 +45,8 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
         }
     }
     let parameters = &model.parameters;
-    for item in &model.constraints {
+    // the piece of a beam reports faults of its lock
+    for item in model.constraints.iter().filter(|item| item.element.in_files()) {
         let section = item.group.section();
         let element = match &item.law {
             None => item.element.clone(),
@@ -115,10 +116,12 @@ fn check(path: &[&str], x: f64, problems: &mut Vec<Problem>) {
 }
 
 fn possible(body: &Body, problems: &mut Vec<Problem>) {
-    let path = |key: &str| ["bodies".to_string(), body.name.clone(), key.to_string()];
-    if body.kind == BEAM {
-        return beam(body, problems);
+    match body.kind {
+        BEAM | NODE => return beam(body, problems),
+        "ground" => return,
+        _ => {}
     }
+    let path = |key: &str| ["bodies".to_string(), body.name.clone(), key.to_string()];
     if !(body.mass.is_finite() && body.mass >= 0.0) {
         let must = if body.mass < 0.0 { "not be negative" } else { "be finite" };
         let message = format!("{} kg; must {must}", body.mass);
@@ -140,13 +143,18 @@ fn possible(body: &Body, problems: &mut Vec<Problem>) {
     }
 }
 
-/// The mass of the first node stands for that of the beam.
+/// Reports an impossible mass of a node, once for each beam.
 fn beam(body: &Body, problems: &mut Vec<Problem>) {
+    let path = ["bodies", beam_of(&body.name)];
+    if problems.iter().any(|problem| problem.path == path) {
+        return;
+    }
     for (what, x) in [("mass", body.mass), ("moment of inertia", body.inertia)] {
         if !(x.is_finite() && x >= 0.0) {
             let must = if x < 0.0 { "not be negative" } else { "be finite" };
             let message = format!("the {what} per length of the beam must {must}");
-            problems.push(Problem::at(&["bodies", &body.name], message));
+            problems.push(Problem::at(&path, message));
+            return;
         }
     }
 }

@@ -45,7 +45,7 @@ mod unit_check;
 mod variable;
 mod variant;
 
-pub use beam_names::{beam_of, is_inner, BEAM, NODE};
+pub use beam_names::{beam_of, is_inner, is_stretch_lock, is_weld, shown, BEAM, NODE};
 pub use blueprint::Blueprint;
 pub use body_fields::body_tables;
 pub(crate) use body_fields::INSTEAD_OF_SHAPES;

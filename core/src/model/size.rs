@@ -6,7 +6,7 @@ use crate::math::{Listed, Real};
 use std::f64::consts::TAU;
 
 /// The size of a mechanism, m: the largest of the distances of points and curves from the origins of their frames,
-/// and of the distances between two points fixed by a joint. 1 m if there are no such distances.
+/// of the distances between two points fixed by a joint, and of the arc lengths of beams. 1 m if there are no such distances.
 pub fn size<S: Real>(model: &Model<S>) -> f64 {
     let points = model.bodies.iter().flat_map(|b| &b.points).map(|(_, s)| s.norm());
     let curves = model.bodies.iter().flat_map(|b| &b.curves).filter_map(|(_, c)| c.as_ref());
@@ -16,8 +16,10 @@ pub fn size<S: Real>(model: &Model<S>) -> f64 {
         Fixes::Distance(length) | Fixes::Beside(length) => Some(length),
         _ => None,
     });
+    let beams = model.forces.iter().filter_map(|item| item.element.reach());
     let largest = points
         .chain(rods)
+        .chain(beams)
         .chain(curves)
         .map(|length| length.largest_magnitude())
         .fold(0.0, f64::max);

@@ -41,11 +41,13 @@ fn eliminate(a: &mut [f64], b: &mut [f64]) -> (f64, f64) {
         }
         sign *= pivot.signum();
         (least, most) = (least.min(pivot.abs()), most.max(pivot.abs()));
-        for row in k + 1..n {
-            let factor = a[row * n + k] / pivot;
+        let (above, below) = a.split_at_mut((k + 1) * n);
+        let own = &above[k * n + k + 1..];
+        for (i, row) in below.chunks_exact_mut(n).enumerate() {
+            let factor = row[k] / pivot;
             if factor != 0.0 {
-                (k + 1..n).for_each(|column| a[row * n + column] -= factor * a[k * n + column]);
-                b[row] -= factor * b[k];
+                row[k + 1..].iter_mut().zip(own).for_each(|(x, own)| *x -= factor * own);
+                b[k + 1 + i] -= factor * b[k];
             }
         }
     }

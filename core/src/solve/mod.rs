@@ -57,7 +57,7 @@
 //! | `block_lu` | its factors, real or complex |
 //! | `complementarity` | linear complementarity problems |
 //! | `dense` | small dense systems |
-//! | `symmetric` | eigenvalues and eigenvectors of dense symmetric matrices |
+//! | `symmetric`, `tridiagonal` | eigenvalues and eigenvectors of dense symmetric matrices, small and large |
 //! | `null_space` | null vectors of a matrix whose rank is known |
 //! | `newton` | damped Newton and Gauss–Newton iteration |
 //! | `breakdown` | reasons why a system has no usable solution |
@@ -90,6 +90,7 @@ mod structure;
 mod substitute;
 mod symbolic;
 mod symmetric;
+mod tridiagonal;
 
 pub use block_lu::{BlockLu, LOST};
 pub use breakdown::Breakdown;
@@ -103,7 +104,7 @@ pub use newton::Newton;
 pub use null_space::{null_space, NullSpace};
 pub use order::{groups_first, touched_first};
 pub use pattern::Pattern;
-pub use rank::{normalize_rows, rank, Rank, RANK_TOLERANCE};
+pub use rank::{dot, normalize_rows, rank, Rank, RANK_TOLERANCE};
 pub use records::{PinEnd, PinRows};
 pub use reference::LightGroup;
 pub use saddle::Saddle;

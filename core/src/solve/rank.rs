@@ -130,7 +130,7 @@ fn reflect(rows: &mut [Vec<f64>], pivot: usize, left: &[usize], k: usize) {
 }
 
 /// The scalar product, as four sums that are computed in parallel.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (fours, others) = (a.chunks_exact(4), b.chunks_exact(4));
     let last = fours.remainder().iter().zip(others.remainder()).map(|(a, b)| a * b).sum::<f64>();
     let mut sums = [0.0; 4];

@@ -3,7 +3,8 @@
 use crate::mechanisms::Random;
 use crate::samples::{motion, random};
 use kempe::elements::forces::BeamPiece;
-use kempe::elements::{BodyId, ForceElement, Held, Mode, Situation};
+use kempe::elements::joints::BeamLock;
+use kempe::elements::{BodyId, Constraint, ForceElement, Held, Mode, Situation};
 use kempe::math::{Dual, Lift, Motion, Pose, Real, Wrench};
 
 fn piece() -> ForceElement {
@@ -22,6 +23,29 @@ fn piece() -> ForceElement {
         slide: [0.0, 0.02, -0.01],
         curvature: [0.3, 0.2, 0.1],
         damping: Some(0.4),
+        by_force: [1.0; 3],
+        by_moment: [2.0; 3],
+    })
+}
+
+/// Locks of stretch, of shear and of a direction between them.
+pub fn locks() -> Vec<Constraint> {
+    [[1.0, 0.0], [0.0, 1.0], [0.6, -0.8]].map(lock).into()
+}
+
+fn lock(along: [f64; 2]) -> Constraint {
+    let [i, j, second, third] = [1, 2, 3, 4].map(BodyId);
+    Constraint::BeamLock(BeamLock {
+        i,
+        j,
+        second,
+        third,
+        length: 1.7,
+        along,
+        stretch: [1.0, 0.98, 1.01],
+        slide: [0.0, 0.02, -0.01],
+        curvature: [0.3, 0.2, 0.1],
+        bending: [0.7, 0.6, 0.5],
         by_force: [1.0; 3],
         by_moment: [2.0; 3],
     })

@@ -71,6 +71,7 @@ impl Names for WithU<'_> {
 pub fn constraints() -> Vec<Constraint> {
     [
         pins_and_slides(),
+        crate::beams::locks(),
         wheels(),
         on_curves(),
         crate::touching::held(),

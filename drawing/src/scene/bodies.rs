@@ -49,7 +49,7 @@ fn points(list: &[Local]) -> Vec<At> {
 fn ends(model: &Model) -> Vec<Ends> {
     let slots = &model.layout.constraints;
     let all = model.constraints.iter().zip(slots);
-    all.filter(|(item, _)| item.group == Group::Joints)
+    all.filter(|(item, _)| item.group == Group::Joints && item.element.in_files())
         .map(|(item, slots)| Ends {
             name: item.name.clone(),
             bodies: first_two(&item.bodies),

@@ -244,10 +244,19 @@ class CompiledModel:
         return MappingProxyType({k: f for k, f in self.forces.items() if f.is_shown})
 
     @cached_property
+    def _all_constraints(self) -> tuple[ConstraintInfo, ...]:
+        return tuple(map(constraint, self._about["constraints"]))
+
+    @cached_property
     def constraints(self) -> Mapping[str, ConstraintInfo]:
         """Joints and drivers, in the order of Φ."""
-        infos = map(constraint, self._about["constraints"])
-        return MappingProxyType({info.name: info for info in infos})
+        infos = self._all_constraints
+        return MappingProxyType({info.name: info for info in infos if info.is_shown})
+
+    def locks(self, beam: str) -> list[ConstraintInfo]:
+        """The constraints that lock strains of the pieces of a beam, along the beam."""
+        infos = (info for info in self._all_constraints if not info.is_shown)
+        return [info for info in infos if info.name.startswith(f"{beam}.")]
 
     @property
     def joints(self) -> Mapping[str, ConstraintInfo]:
@@ -338,15 +347,15 @@ class CompiledModel:
 
     def row_names(self) -> list[str]:
         """Names of the constraint equations in the order of Φ, such as ``A.x``."""
-        return [f"{c.name}.{name}" for c in self.constraints.values() for name, _ in c.equations]
+        return [f"{c.name}.{name}" for c in self._all_constraints for name, _ in c.equations]
 
     def row_units(self) -> list[str]:
         """Units of the constraint equations in the order of Φ: m or rad."""
-        return [unit for c in self.constraints.values() for _, unit in c.equations]
+        return [unit for c in self._all_constraints for _, unit in c.equations]
 
     def acting_rows(self) -> list[tuple[str, str]]:
         """Names and units of the constraint equations without those of released drivers."""
-        acting = [c for name, c in self.constraints.items() if name not in self.released]
+        acting = [c for c in self._all_constraints if c.name not in self.released]
         return [(f"{c.name}.{name}", unit) for c in acting for name, unit in c.equations]
 
     def __repr__(self) -> str:

@@ -122,6 +122,7 @@ class ConstraintInfo:
         results: names and units of its results beside the reaction, such as ``("normal", "N")``.
         events: for each of these results the event that occurs when it becomes negative, or None.
         measured: its position quantities.
+        is_shown: whether lists and figures show it; a lock is part of its beam.
     """
 
     name: str
@@ -141,6 +142,7 @@ class ConstraintInfo:
     results: tuple[tuple[str, str], ...]
     events: tuple[str | None, ...]
     measured: tuple[Measured, ...]
+    is_shown: bool
 
     def __repr__(self) -> str:
         return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
@@ -247,6 +249,7 @@ def constraint(entry: dict[str, Any]) -> ConstraintInfo:
         results=_units(entry["results"]),
         events=tuple(result["negative"] for result in entry["results"]),
         measured=_measured(entry["measured"]),
+        is_shown=entry["is_shown"],
     )
 
 

@@ -22,7 +22,7 @@ use crate::analyses::Dependent;
 use crate::elements::QuantityKind;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
-use crate::model::{listed, row_scales, Model};
+use crate::model::{is_weld, listed, row_scales, shown, Model};
 use crate::solve::RANK_TOLERANCE;
 use std::sync::Arc;
 
@@ -139,8 +139,10 @@ pub(super) fn of_joints(
         found.is_some_and(|found| found.constraints.len() == one.group.len())
     };
     let one = here.iter().filter(contradicts).find(alone)?;
-    let name = |k: &usize| model.constraints[*k].name.as_str();
-    let names = listed(&one.group.iter().map(name).list());
+    let name = |k: &usize| shown(&model.constraints[*k].name);
+    let mut names: Vec<&str> = one.group.iter().map(name).list();
+    names.dedup();
+    let names = listed(&names);
     let open = Openings::of(model, &phi, one.group.iter().copied())?;
     let (by, unit, worst) = (trimmed(open.total, 3), open.kind.unit(), name(&open.worst.0));
     let driven = one.group.iter().any(|k| model.constraints[*k].driven);
@@ -240,6 +242,7 @@ fn label(model: &Model, request: &Request, k: usize) -> String {
     let item = &model.constraints[k];
     match item.name.strip_prefix(SET) {
         Some(quantity) => format!("{SET}{}", request.written(model, quantity)),
+        None if is_weld(&item.name) => format!("beam {}", shown(&item.name)),
         None => format!("{} {}", item.group.singular(), item.name),
     }
 }
@@ -249,6 +252,7 @@ fn place(model: &Model, k: usize) -> Vec<String> {
     let item = &model.constraints[k];
     match item.name.strip_prefix(SET) {
         Some(quantity) => vec!["start".to_string(), "set".to_string(), quantity.to_string()],
+        None if is_weld(&item.name) => vec!["bodies".to_string(), shown(&item.name).to_string()],
         None => vec![item.group.section().to_string(), item.name.clone()],
     }
 }
@@ -258,7 +262,8 @@ fn failure(model: &Model, request: &Request, found: &Contradiction) -> Failure {
     let driven: Vec<usize> = met.iter().filter(|k| model.constraints[**k].driven).copied().list();
     // without another driver, the joints determine the quantity
     let others = if driven.is_empty() { met } else { &driven };
-    let labels: Vec<String> = others.iter().map(|k| label(model, request, *k)).list();
+    let mut labels: Vec<String> = others.iter().map(|k| label(model, request, *k)).list();
+    labels.dedup();
     let others = listed(&labels.iter().map(String::as_str).list());
     let last = label(model, request, *missed);
     let hold = if labels.len() == 1 { "holds" } else { "hold" };

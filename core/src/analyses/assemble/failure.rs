@@ -14,7 +14,7 @@ use crate::equations::kinematics::Motions;
 use crate::equations::{at, constraints};
 use crate::expression::TABLE_ENDS;
 use crate::math::{each, Listed};
-use crate::model::{listed, ConstraintItem, Model, MOST_REPORTED};
+use crate::model::{listed, shown, ConstraintItem, Model, MOST_REPORTED};
 use std::collections::VecDeque;
 use std::fmt;
 
@@ -144,7 +144,7 @@ pub(super) fn off_the_curve((name, message): (String, String)) -> Failure {
 }
 
 fn dyad_open(model: &Model, request: &Request, gap: &DyadGap) -> Failure {
-    let joint = &model.constraints[gap.joint].name;
+    let joint = shown(&model.constraints[gap.joint].name);
     let [a, b] = gap.bodies.map(|k| model.bodies[k].name.as_str());
     let missing = gap.missing.abs();
     let length = length(missing);
@@ -167,7 +167,7 @@ fn dyad_open(model: &Model, request: &Request, gap: &DyadGap) -> Failure {
     let change = if set.is_empty() { String::new() } else { ", or change what is set".to_string() };
     Failure {
         fault: Fault::Open,
-        name: joint.clone(),
+        name: joint.to_string(),
         gap: missing,
         message: format!("the loop {loop_} cannot close: {set}{fault}"),
         hint: format!("{hint}{change}"),
@@ -178,7 +178,7 @@ fn dyad_open(model: &Model, request: &Request, gap: &DyadGap) -> Failure {
 fn stays_open(model: &Model, request: &Request, phi: &[f64], group: &[usize]) -> Failure {
     let open = Openings::of(model, phi, group.iter().copied()).expect("a joint that is open");
     let (worst, missed) = open.worst;
-    let name = model.constraints[worst].name.clone();
+    let name = shown(&model.constraints[worst].name).to_string();
     // if a driver or a set coordinate has the largest error, the constraints contradict each other
     let joint = model.constraints[worst].group == Group::Joints;
     let around = match loop_through(model, worst, group).filter(|_| joint) {

@@ -8,7 +8,8 @@ use crate::equations::balance::Balance;
 use crate::equations::energy;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
-use crate::equations::reactions;
+use crate::equations::tangent::Tangent;
+use crate::equations::{reactions, reactive};
 use crate::math::{each, Listed, Vec2};
 use crate::model::{column_scales, row_scales, size, Model};
 use crate::solve::solve_dense;
@@ -183,7 +184,7 @@ impl<'a> Statics<'a> {
     /// Forces and stiffness along the degrees of freedom at a position.
     pub fn local(&self, place: &StaticState) -> Result<LocalForces, Reason> {
         let mut basis = self.freedoms(place)?;
-        orthonormalize(&mut basis.basis, &self.columns);
+        basis.orthonormalize(&self.columns);
         let gradient = basis.reduce(&place.missing);
         let stiffness = self.stiffness(place, &basis)?;
         Ok(LocalForces { basis, gradient, stiffness })
@@ -217,9 +218,22 @@ impl<'a> Statics<'a> {
             StatePoint { q: &place.q, v: &self.rest, z: &place.z, a: &self.rest, lam: &place.lam };
         let variation = Variation::new(self.model, self.t, at, false);
         let by_states = self.by_states(&variation, place.z.len());
+        if reactive::depends(self.model) {
+            let along = |direction: &&[f64]| {
+                let slopes = variation.along(StatePoint { q: direction, ..StatePoint::default() });
+                self.followed(&by_states, slopes.forces, &slopes.states)
+            };
+            return directions.iter().map(along).collect();
+        }
+        let motions = Motions::at_rest(&self.model.layout, &place.q);
+        let mut tangent = Tangent::new(self.model);
+        tangent.linearize(self.model, &motions, self.t, [&self.rest, &place.lam, &place.z]);
+        let (n, n_z) = (place.q.len(), place.z.len());
+        let mut product = vec![0.0; n + n_z + place.lam.len()];
         let along = |direction: &&[f64]| {
-            let slopes = variation.along(StatePoint { q: direction, ..StatePoint::default() });
-            self.followed(&by_states, slopes.forces, &slopes.states)
+            tangent.times(self.model, [&self.rest, &vec![0.0; n_z], direction], &mut product);
+            let forces = product[..n].iter().map(|x| -x).list();
+            self.followed(&by_states, forces, &product[n..n + n_z])
         };
         directions.iter().map(along).collect()
     }
@@ -315,23 +329,4 @@ fn is_conservative(model: &Model) -> bool {
         let potential = |nature| matches!(nature, Nature::Conservative | Nature::Dissipative);
         item.law.is_none() && item.states.is_empty() && natures.into_iter().all(potential)
     })
-}
-
-/// The Gram–Schmidt method, applied twice, in scaled coordinates.
-fn orthonormalize(columns: &mut [Vec<f64>], scales: &[f64]) {
-    let product = |a: &[f64], b: &[f64]| -> f64 {
-        a.iter().zip(b).zip(scales).map(|((a, b), s)| (a / s) * (b / s)).sum()
-    };
-    for _ in 0..2 {
-        for k in 0..columns.len() {
-            let (before, rest) = columns.split_at_mut(k);
-            let own = &mut rest[0];
-            for other in before {
-                let part = product(own, other);
-                own.iter_mut().zip(other).for_each(|(a, b)| *a -= part * *b);
-            }
-            let length = product(own, own).sqrt();
-            own.iter_mut().for_each(|x| *x /= length);
-        }
-    }
 }

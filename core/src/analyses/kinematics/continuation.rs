@@ -75,7 +75,10 @@ impl<'a> Continuation<'a> {
         let freedom = mobility(model, *t, q);
         if freedom.degrees_of_freedom > 0 && freedom.singular.is_empty() {
             if let Some(beam) = model.bodies.iter().find(|body| body.kind == BEAM) {
-                return Err(Reason::Bends(beam.name.clone()).into());
+                let mut drivers = model.constraints.iter();
+                let driver = drivers.find(|item| item.element.drives().is_some());
+                let driver = driver.map(|item| item.name.clone());
+                return Err(Reason::Bends(beam.name.clone(), driver).into());
             }
             return Err(Reason::Free { degrees_of_freedom: freedom.degrees_of_freedom }.into());
         }

@@ -29,8 +29,8 @@ pub enum Reason {
         /// The number of degrees of freedom that remain.
         degrees_of_freedom: usize,
     },
-    /// The shape of a beam, by its name, is not determined by drivers.
-    Bends(String),
+    /// The shape of a beam, by its name, is not determined by drivers, such as this one.
+    Bends(String, Option<String>),
     /// The start does not satisfy the constraints.
     Open {
         /// The time, s.
@@ -153,7 +153,7 @@ impl fmt::Display for Reason {
                 "the drivers leave {n} degree{} of freedom; kinematics needs a driver for each",
                 if *n == 1 { "" } else { "s" }
             ),
-            Self::Bends(beam) => write!(
+            Self::Bends(beam, _) => write!(
                 f,
                 "drivers do not determine the shape of beam {beam}"
             ),

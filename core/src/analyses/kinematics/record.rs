@@ -276,9 +276,17 @@ impl From<Reason> for Outcome {
                 let outcome = Self { problems, ..Self::new(ErrorClass::Model, message) };
                 outcome.hint("add a coordinate_driver for each, or use dynamics")
             }
-            Reason::Bends(beam) => Self::new(ErrorClass::Model, message).name(beam).hint(
-                "compute an equilibrium over the driven quantity, or use dynamics",
-            ),
+            Reason::Bends(beam, driver) => {
+                let value = match driver {
+                    Some(driver) => format!("make the value of {driver} a parameter p in place of a law of t"),
+                    None => "drive a coordinate to a parameter p".to_string(),
+                };
+                let hint = format!(
+                    "{value}, and kp.equilibrium(model, state, over=\"p\", range=(first, last)) follows the shape; \
+                     with masses in motion, use dynamics"
+                );
+                Self::new(ErrorClass::Model, message).name(beam).hint(&hint)
+            }
             Reason::Open { t, name, .. } => Self::new(ErrorClass::Assembly, message)
                 .name(name)
                 .at(*t)

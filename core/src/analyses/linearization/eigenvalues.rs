@@ -2,7 +2,7 @@
 
 use super::linearize::Linearization;
 use crate::math::{Complex, Listed};
-use crate::solve::{eigenvalues as of_matrix, Eigen};
+use crate::solve::{dot, eigenvalues as of_matrix, Eigen};
 
 /// Largest relative part of a matrix that counts as a rounding error.
 const ROUNDING: f64 = 1e-12;
@@ -36,13 +36,11 @@ fn is_symmetric(of: &Linearization, f: usize) -> bool {
 fn of_squares(of: &Linearization, f: usize) -> Vec<Complex> {
     // with M = V D Vᵀ, the matrix D^(-1/2) Vᵀ K V D^(-1/2) has the eigenvalues ω²
     let Eigen { values, vectors } = Eigen::of(&of.mass, f);
-    let product = |a: &[f64], b: &[f64]| -> f64 {
-        let row = |i: usize| (0..f).map(move |j| a[i] * of.stiffness[i * f + j] * b[j]);
-        (0..f).flat_map(row).sum()
-    };
+    let times = |x: &Vec<f64>| of.stiffness.chunks_exact(f).map(|row| dot(row, x)).list();
+    let products: Vec<Vec<f64>> = vectors.iter().map(times).list();
     let entry = |k: usize| {
         let (i, j) = (k / f, k % f);
-        product(&vectors[i], &vectors[j]) / (values[i] * values[j]).sqrt()
+        dot(&vectors[i], &products[j]) / (values[i] * values[j]).sqrt()
     };
     let reduced: Vec<f64> = (0..f * f).map(entry).list();
     let squares = Eigen::of(&reduced, f).values;

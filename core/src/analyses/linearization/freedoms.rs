@@ -3,7 +3,8 @@
 //!
 //! Arbitrary vectors, one for each degree of freedom, are projected onto Φ_q x = 0 and made orthonormal. The
 //! independent coordinates are then chosen one by one, by elimination with threshold pivoting, angles before lengths,
-//! so that no entry of N becomes large. Each column costs two projections with the sparse factors.
+//! so that no entry of N becomes large. Each column costs two projections with the sparse factors. A coordinate that
+//! occurs in no constraint, as those inside of a beam, is independent, and its column is a unit vector.
 
 use super::failure::Failure;
 use super::least_norm::LeastNorm;
@@ -11,6 +12,8 @@ use crate::analyses::mobility::Mobility;
 use crate::analyses::second_order::mobility;
 use crate::math::{Listed, Ordered};
 use crate::model::Model;
+use crate::solve::dot;
+use std::ops::Range;
 
 /// Fraction of the largest remaining entry from which a coordinate is chosen.
 const ENOUGH: f64 = 0.1;
@@ -22,6 +25,8 @@ pub struct Freedoms {
     pub coordinates: Vec<usize>,
     /// N by columns, each of shape (n_q).
     pub basis: Vec<Vec<f64>>,
+    /// The part of each column outside of which it is zero.
+    spans: Vec<Range<usize>>,
     /// Number of coordinates.
     n_q: usize,
 }
@@ -53,8 +58,11 @@ impl Freedoms {
         let found = Self::regular(model, t, q)?;
         let factors = LeastNorm::new(model, t, q, !found.redundant.is_empty())
             .map_err(|breakdown| Failure::breakdown(model, t, breakdown))?;
-        let free = orthonormal(&factors, found.degrees_of_freedom);
-        let coordinates = independent(model, &free);
+        let mut bound = vec![false; q.len()];
+        model.layout.positions().for_each(|(_, column, _)| bound[column] = true);
+        let unbound = (0..q.len()).filter(|column| !bound[*column]).list();
+        let free = orthonormal(&factors, &bound, found.degrees_of_freedom - unbound.len());
+        let coordinates = independent(model, &bound, &free);
         let mut basis = free;
         solve_for(&coordinates, &mut basis);
         for column in &mut basis {
@@ -68,21 +76,37 @@ impl Freedoms {
             let unit = column[own];
             column.iter_mut().for_each(|x| *x /= unit);
         }
-        Ok((Self { coordinates, basis, n_q: q.len() }, factors))
+        let unit = |own: &usize| (0..q.len()).map(|k| f64::from(u8::from(k == *own))).list();
+        let further = unbound.iter().map(|own| (*own, unit(own)));
+        let mut all: Vec<_> = coordinates.into_iter().zip(basis).chain(further).list();
+        all.order_by_key(|(own, _)| *own);
+        let (coordinates, basis): (_, Vec<_>) = all.into_iter().unzip();
+        let spans = spans(&basis);
+        Ok((Self { coordinates, basis, spans, n_q: q.len() }, factors))
     }
 
     /// Nᵀ f, shape (f) for f of shape (n_q).
     pub fn reduce(&self, f: &[f64]) -> Vec<f64> {
-        self.basis.iter().map(|column| column.iter().zip(f).map(|(n, f)| n * f).sum()).list()
+        let all = self.basis.iter().zip(&self.spans);
+        all.map(|(column, span)| dot(&column[span.clone()], &f[span.clone()])).list()
     }
 
     /// N α, shape (n_q).
     pub fn extend(&self, alpha: &[f64]) -> Vec<f64> {
         let mut x = vec![0.0; self.n_q];
-        for (column, alpha) in self.basis.iter().zip(alpha) {
-            x.iter_mut().zip(column).for_each(|(x, n)| *x += alpha * n);
+        for ((column, span), alpha) in self.basis.iter().zip(&self.spans).zip(alpha) {
+            let entries = x[span.clone()].iter_mut().zip(&column[span.clone()]);
+            entries.for_each(|(x, n)| *x += alpha * n);
         }
         x
+    }
+
+    /// Replaces the basis by one that is orthonormal in scaled coordinates, by the Gram–Schmidt method applied twice.
+    pub(in crate::analyses) fn orthonormalize(&mut self, scales: &[f64]) {
+        self.basis.iter_mut().for_each(|column| scale(column, scales, -1));
+        (0..2).for_each(|_| orthonormalize(&mut self.basis));
+        self.basis.iter_mut().for_each(|column| scale(column, scales, 1));
+        self.spans = spans(&self.basis);
     }
 
     /// Adds a motion N α to x so that the independent components of x become zero.
@@ -102,12 +126,13 @@ fn scale(x: &mut [f64], scales: &[f64], power: i32) {
     x.iter_mut().zip(scales).for_each(|(x, scale)| *x *= scale.powi(power));
 }
 
-/// Vectors with Φ_q x = 0 that are orthonormal in scaled coordinates.
-fn orthonormal(factors: &LeastNorm<'_>, count: usize) -> Vec<Vec<f64>> {
+/// Vectors of bound coordinates with Φ_q x = 0 that are orthonormal in scaled coordinates.
+fn orthonormal(factors: &LeastNorm<'_>, bound: &[bool], count: usize) -> Vec<Vec<f64>> {
     let n = factors.scales.len();
     // fixed pseudo-random numbers
     let part = |k: usize| (12.9898 * (k as f64 + 1.618)).sin() * 43758.5453;
-    let probe = |j: usize| (0..n).map(|k| part(j * n + k).fract() - 0.5).list();
+    let entry = |k: usize| if bound[k % n] { part(k).fract() - 0.5 } else { 0.0 };
+    let probe = |j: usize| (0..n).map(|k| entry(j * n + k)).list();
     let mut found: Vec<Vec<f64>> = (0..count).map(probe).list();
     // the second pass removes the rounding errors of the first
     for _ in 0..2 {
@@ -121,25 +146,41 @@ fn orthonormal(factors: &LeastNorm<'_>, count: usize) -> Vec<Vec<f64>> {
     found
 }
 
+/// The parts outside of which the columns are zero.
+fn spans(columns: &[Vec<f64>]) -> Vec<Range<usize>> {
+    let span = |column: &Vec<f64>| {
+        let first = column.iter().position(|x| *x != 0.0).unwrap_or(0);
+        first..column.iter().rposition(|x| *x != 0.0).map_or(first, |last| last + 1)
+    };
+    columns.iter().map(span).list()
+}
+
 /// The modified Gram–Schmidt method.
 fn orthonormalize(columns: &mut [Vec<f64>]) {
+    let mut spans = spans(columns);
     for k in 0..columns.len() {
         let (before, rest) = columns.split_at_mut(k);
-        let own = &mut rest[0];
-        for other in before {
-            let part: f64 = own.iter().zip(&*other).map(|(a, b)| a * b).sum();
-            own.iter_mut().zip(other).for_each(|(a, b)| *a -= part * *b);
+        let (own, mut mine) = (&mut rest[0], spans[k].clone());
+        for (other, span) in before.iter().zip(&spans) {
+            let both = mine.start.max(span.start)..mine.end.min(span.end);
+            let part = if both.is_empty() { 0.0 } else { dot(&own[both.clone()], &other[both]) };
+            if part != 0.0 {
+                let entries = own[span.clone()].iter_mut().zip(&other[span.clone()]);
+                entries.for_each(|(a, b)| *a -= part * *b);
+                mine = mine.start.min(span.start)..mine.end.max(span.end);
+            }
         }
-        let length = own.iter().map(|x| x * x).sum::<f64>().sqrt();
+        spans[k] = mine;
+        let length = dot(own, own).sqrt();
         own.iter_mut().for_each(|x| *x /= length);
     }
 }
 
 /// The independent coordinates, ascending. Each step of the elimination chooses the first coordinate whose entry is
 /// large enough relative to the largest entry, angles before lengths.
-fn independent(model: &Model, free: &[Vec<f64>]) -> Vec<usize> {
+fn independent(model: &Model, bound: &[bool], free: &[Vec<f64>]) -> Vec<usize> {
     let lengths = model.layout.lengths();
-    let mut order: Vec<usize> = (0..lengths.len()).list();
+    let mut order: Vec<usize> = (0..lengths.len()).filter(|row| bound[*row]).list();
     order.order_by_key(|row| lengths[*row]);
     let mut left = free.to_vec();
     let mut taken = Vec::with_capacity(left.len());

@@ -10,7 +10,7 @@
 //! A file has no pieces: the reader of beams makes them.
 
 use crate::elements::beam_line::{
-    at, section, Interpolated, Section, AT_GAUSS, GAUSS, NODES, WEIGHTS,
+    in_stations, section, Section, AT_GAUSS, AT_STATIONS, GAUSS, NODES, STATIONS, WEIGHTS,
 };
 use crate::elements::{
     element, BodyId, Force, Mark, Nature, Part, PointOn, ResultQuantity, SceneSymbol, Situation,
@@ -53,12 +53,6 @@ element! {
         by_moment: triple [1/m^3, 1/m^3, 1/m^3] = [0.0, 0.0, 0.0],
     }
 }
-
-/// Number of places at which results are reported: both ends and the Gauss points.
-const STATIONS: usize = 5;
-/// Their interpolation.
-const AT_STATIONS: [Interpolated; STATIONS] =
-    [at(-1.0), AT_GAUSS[0], AT_GAUSS[1], AT_GAUSS[2], at(1.0)];
 
 /// The bodies in the order of the nodes, as indices in [`Force::bodies`].
 const ORDER: [usize; NODES] = [0, 2, 3, 1];
@@ -125,18 +119,6 @@ fn add<S: Real>(
         sum[k].force = sum[k].force - force.scale(slope);
         sum[k].torque -= weight * turning * value + moment * slope;
     }
-}
-
-/// Efforts in the stations: those of the Gauss points, and at the ends those of the parabola through them.
-fn in_stations<S: Real>(of: [S; 3]) -> [S; STATIONS] {
-    let x = GAUSS[2];
-    // Lagrange's formula at ξ = ±1
-    let near = S::constant((1.0 + x) / (2.0 * x * x));
-    let far = S::constant((1.0 - x) / (2.0 * x * x));
-    let middle = S::constant(1.0 - 1.0 / (x * x));
-    let first = near * of[0] + middle * of[1] + far * of[2];
-    let last = far * of[0] + middle * of[1] + near * of[2];
-    [first, of[0], of[1], of[2], last]
 }
 
 /// Efforts in the Gauss points, with damping.
@@ -290,6 +272,11 @@ impl Force for BeamPiece {
         out[8 * STATIONS] = largest[0];
         out[8 * STATIONS + 1] = largest[1];
         out[8 * STATIONS + 2] = Self::potential(e, at);
+    }
+
+    /// The arc length of the beam up to its last node.
+    fn reach<S: Real>(e: &BeamPiece<S>) -> Option<S> {
+        Some(e.start + e.length)
     }
 
     fn has_stress(e: &BeamPiece) -> bool {

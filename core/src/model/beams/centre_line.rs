@@ -6,7 +6,8 @@ use super::super::scope::Reach;
 use super::spline::{crosses, crossing, Curved};
 use crate::elements::beam_line::{section, AT_GAUSS, GAUSS, NODES, PLACES};
 use crate::expression::Tape;
-use crate::math::{each, indexed, Listed, Pose};
+use crate::math::{each, indexed, Listed, Local, Pose};
+use std::f64::consts::PI;
 
 /// Points of a curved centre line at which crossings are searched, for each of its points.
 const FINE: usize = 16;
@@ -168,6 +169,19 @@ impl CentreLine {
                 curved.places(&before).last().map_or([0.0; 3], |place| *place).map(Tape::from)
             }
         }
+    }
+
+    /// Position and angle at the arc length `to` in the frame of the section at `from`.
+    pub fn step(&self, reader: &mut Reader<'_>, from: &str, to: &str) -> [Tape; 3] {
+        let LineForm::Spline(curved) = &self.form else {
+            return self.place(reader, &format!("(({to})-({from}))"));
+        };
+        let (from, to) = (reader.value(from), reader.value(to));
+        let all = curved.places(&[from, to]);
+        let [first, last] = [all[0], all[1]].map(|[x, y, angle]| Pose::new(x, y, angle));
+        let at: Local = first.rotation.inverse(last.r - first.r);
+        let turned = (last.angle - first.angle + PI).rem_euclid(2.0 * PI) - PI;
+        [at.x, at.y, turned].map(Tape::from)
     }
 
     /// The strains of an element from `start` with the given length that are free of stress: those of the nodes on

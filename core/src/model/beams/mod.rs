@@ -3,9 +3,10 @@
 //! This module is the only place that expands a beam. An end or a named point of a beam is a body, and every reference
 //! to it needs no further code.
 //!
-//! In the rigid form of a model, joints connect to the first node, and welds carry the other nodes. Assembly closes
-//! the mechanism in this form, so that beams start without strain.
+//! In the rigid form of a model, welds connect neighbouring nodes. Assembly closes the mechanism in this form, so that
+//! beams start without strain.
 
+mod along;
 mod centre_line;
 mod pieces;
 mod read;
@@ -14,4 +15,4 @@ mod spline;
 mod stiffness;
 
 pub(super) use read::{read, Linked};
-pub(super) use rigid::{connect, rigid_bodies, weld};
+pub(super) use rigid::{connect, weld};

@@ -5,26 +5,30 @@ use super::super::body_reader::{term, Reader};
 use super::super::definition::Value;
 use super::super::items::Body;
 use super::super::scope::Reach;
+use super::along;
 use super::centre_line::CentreLine;
 use super::pieces::{divide, Division};
 use super::stiffness::{self, Stiffness};
-use crate::elements::beam_line::{NODES, SHARES};
+use crate::elements::beam_line::{GAUSS, NODES, SHARES};
 use crate::elements::{
-    elastic_piece, welded, BodyId, Constraint, ForceElement, PieceNumbers, PointOn,
+    beam_lock, elastic_piece, welded, BodyId, Constraint, ForceElement, PieceNumbers, PointOn,
 };
 use crate::expression::Tape;
 use crate::math::{Listed, Local};
+
+/// Elements with their names.
+type Named<E> = Vec<(String, E)>;
 
 /// A linked beam.
 pub struct Linked {
     /// Its nodes: the first end, then in the order of [`nodes::names`].
     pub bodies: Vec<Body<Tape>>,
     /// Its elastic pieces.
-    pub pieces: Vec<(String, ForceElement<Tape>)>,
+    pub pieces: Named<ForceElement<Tape>>,
+    /// The locks of their strains, which hold in the elastic form only.
+    pub locks: Named<Constraint<Tape>>,
     /// The welds that carry its nodes in the rigid form of the model.
-    pub welds: Vec<(String, Constraint<Tape>)>,
-    /// Its ends and named points in the frame of the first end, for the rigid form.
-    pub places: Vec<(String, Local<Tape>)>,
+    pub welds: Named<Constraint<Tape>>,
 }
 
 /// Reads a beam whose first node has the index `first`.
@@ -45,7 +49,8 @@ fn placeholder(reader: &mut Reader<'_>) -> Linked {
     let further = nodes::names(reader.entry);
     let further = further.into_iter().map(|name| Body { name, ..reader.blank(NODE) }).list();
     let bodies = std::iter::once(first).chain(further).list();
-    Linked { bodies, pieces: Vec::new(), welds: Vec::new(), places: Vec::new() }
+    let (pieces, locks, welds) = (Vec::new(), Vec::new(), Vec::new());
+    Linked { bodies, pieces, locks, welds }
 }
 
 fn zero() -> Local<Tape> {
@@ -62,8 +67,9 @@ struct BeamParts {
 }
 
 fn parts(reader: &mut Reader<'_>) -> Option<BeamParts> {
-    refused(reader);
-    let (line, stiffness) = (CentreLine::read(reader), stiffness::read(reader));
+    let line = CentreLine::read(reader);
+    let length = line.as_ref().map_or("1", |line| &line.length).to_string();
+    let stiffness = stiffness::read(reader, &length);
     let damping = match reader.entry.get("damping") {
         Some(Value::Number(0.0)) | None => None,
         Some(_) => Some(reader.number("damping", "s")?),
@@ -71,19 +77,6 @@ fn parts(reader: &mut Reader<'_>) -> Option<BeamParts> {
     let line = line?;
     let places = places(reader, &line.length)?;
     Some(BeamParts { line, stiffness: stiffness?, damping, places })
-}
-
-/// Reports what is not computed yet.
-fn refused(reader: &mut Reader<'_>) {
-    if reader.entry.get("shear") == Some(&Value::Flag(false)) {
-        reader.report(
-            "shear",
-            "beams without shear are not computed yet; remove shear, and give GA or a section",
-        );
-    }
-    if reader.entry.get("inextensible") == Some(&Value::Flag(true)) {
-        reader.report("inextensible", "inextensible beams are not computed yet; remove inextensible, and give EA or a section");
-    }
 }
 
 /// The ends and named points in the order of their arc lengths.
@@ -193,22 +186,19 @@ impl BeamParts {
         let division = divide(&along, nodes::elements(reader.entry));
         let ids = self.ids(reader, &division, first);
         let bodies = self.bodies(reader, &division, &ids, first);
-        let pieces = self.pieces(reader, &division, &ids);
-        let (mut welds, mut places) = (Vec::new(), Vec::new());
-        let mut named = self.places.iter();
+        let (pieces, locks) = self.pieces(reader, &division, &ids);
+        let mut welds = Vec::new();
         for (k, s) in division.at.iter().enumerate() {
-            let [x, y, angle] = self.line.place(reader, s);
-            let at = Local { x, y };
-            if division.named[k] {
-                places.extend(named.next().map(|(name, ..)| (name.clone(), at.clone())));
-            }
             if k > 0 {
-                let (i, j) = (PointOn { body: first, s: at }, PointOn { body: ids[k], s: zero() });
+                // a chain, so that the factors of the rigid form stay sparse
+                let [x, y, angle] = self.line.step(reader, &division.at[k - 1], s);
+                let i = PointOn { body: ids[k - 1], s: Local { x, y } };
+                let j = PointOn { body: ids[k], s: zero() };
                 let name = format!("{}{WELD}", bodies[ids[k].0 - first.0].name);
                 welds.push((name, welded(i, j, angle)));
             }
         }
-        Linked { bodies, pieces, welds, places }
+        Linked { bodies, pieces, locks, welds }
     }
 
     /// The bodies of the nodes along the beam.
@@ -237,6 +227,7 @@ impl BeamParts {
         ids: &[BodyId],
         first: BodyId,
     ) -> Vec<Body<Tape>> {
+        let of = &self.stiffness;
         let mut carried = vec![Vec::new(); ids.len()];
         for element in &division.elements {
             for k in 0..NODES {
@@ -247,11 +238,11 @@ impl BeamParts {
         let mut bodies = vec![Body { drawn: self.line.drawn.clone(), ..reader.blank(BEAM) }];
         bodies[0].points.push((self.places[0].0.clone(), zero()));
         bodies.extend(names.into_iter().map(|name| Body { name, ..reader.blank(NODE) }));
-        for (carried, id) in carried.iter().zip(ids) {
+        for ((carried, id), s) in carried.iter().zip(ids).zip(&division.at) {
             let length = carried.join("+");
             let body = &mut bodies[id.0 - first.0];
-            body.mass = reader.compose(&format!("{}*({length})", self.stiffness.mass));
-            body.inertia = reader.compose(&format!("{}*({length})", self.stiffness.inertia));
+            body.mass = reader.compose(&format!("{}*({length})", along::at(&of.mass, s)));
+            body.inertia = reader.compose(&format!("{}*({length})", along::at(&of.inertia, s)));
         }
         bodies
     }
@@ -261,23 +252,35 @@ impl BeamParts {
         reader: &mut Reader<'_>,
         division: &Division,
         ids: &[BodyId],
-    ) -> Vec<(String, ForceElement<Tape>)> {
-        let three = |tape: &Tape| [tape.clone(), tape.clone(), tape.clone()];
+    ) -> (Named<ForceElement<Tape>>, Named<Constraint<Tape>>) {
         let of = &self.stiffness;
-        let mut made = Vec::new();
+        let locked = [("inextensible", true), ("shear", false)]
+            .map(|(key, by)| reader.entry.get(key) == Some(&Value::Flag(by)));
+        // a locked strain is zero, so that any stiffness exerts no force
+        let one = "1".to_string();
+        let stiffness = [&of.axial, &of.shear, &of.bending];
+        let soft = [0, 1, 2].map(|k| if k < 2 && locked[k] { &one } else { stiffness[k] });
+        let (mut made, mut locks) = (Vec::new(), Vec::new());
         for (k, element) in division.elements.iter().enumerate() {
             let (start, length) = (&element.start, &element.length);
+            let share = |xi: f64| format!("({start}+({:?})*{length})", 0.5 * (1.0 + xi));
+            let gauss = GAUSS.map(share);
             let numbers = PieceNumbers {
                 start: reader.compose(start),
                 length: reader.compose(length),
-                stiffness: [three(&of.axial), three(&of.shear), three(&of.bending)],
+                stiffness: soft.map(|text| stiffness::at(reader, text, &gauss)),
                 strains: self.line.strains(reader, start, length),
                 damping: self.damping.clone(),
-                stresses: [three(&of.by_force), three(&of.by_moment)],
+                stresses: [&of.by_force, &of.by_moment]
+                    .map(|text| stiffness::at(reader, text, &gauss)),
             };
-            let name = format!("{}.piece_{}", reader.entry.name, k + 1);
-            made.push((name, elastic_piece(element.nodes.map(|node| ids[node]), numbers)));
+            let of = element.nodes.map(|node| ids[node]);
+            let name = |of: &str| format!("{}.{of}_{}", reader.entry.name, k + 1);
+            for axis in [0, 1].into_iter().filter(|axis| locked[*axis]) {
+                locks.push((name(nodes::LOCKS[axis]), beam_lock(of, axis, &numbers)));
+            }
+            made.push((name("piece"), elastic_piece(of, numbers)));
         }
-        made
+        (made, locks)
     }
 }

@@ -1,22 +1,55 @@
-//! Stiffness and mass of a beam: from a section and a material, or as given.
+//! Stiffness and mass of a beam: from a section and a material, or as given. All may vary with the arc length `s`.
 
 use super::super::body_reader::{term, Reader};
 use super::super::definition::Value;
 use super::super::scope::Reach;
+use super::along;
 use crate::expression::Tape;
 use crate::math::Listed;
 
-/// The constants of a section.
+/// The constants of a section as texts, which may contain the arc length `s`.
 pub struct Stiffness {
-    pub axial: Tape,
-    pub shear: Tape,
-    pub bending: Tape,
+    pub axial: String,
+    pub shear: String,
+    pub bending: String,
     /// Stress for a normal force of 1 N and at the faces for a bending moment of 1 N·m; zero without a section.
-    pub by_force: Tape,
-    pub by_moment: Tape,
-    /// Mass and moment of inertia per length, as text.
+    pub by_force: String,
+    pub by_moment: String,
+    /// Mass and moment of inertia per length.
     pub mass: String,
     pub inertia: String,
+}
+
+/// A constant of a section at three arc lengths.
+pub fn at(reader: &mut Reader<'_>, text: &str, s: &[String; 3]) -> [Tape; 3] {
+    match along::varies(text) {
+        true => [0, 1, 2].map(|g| reader.compose(&along::at(text, &s[g]))),
+        false => {
+            let tape = reader.compose(text);
+            [tape.clone(), tape.clone(), tape]
+        }
+    }
+}
+
+/// Reads a number that may vary along the beam, in the places where it must be possible.
+fn number(reader: &mut Reader<'_>, key: &str, unit: &str, length: &str) -> Option<String> {
+    let value = reader.entry.get(key)?;
+    let path = reader.path(key);
+    for at in along_beam(reader, key, value, length) {
+        reader.scope.formula(&at, &path, unit, Reach::Parameters, reader.problems)?;
+    }
+    Some(term(value))
+}
+
+/// A value at both ends and in the middle of the beam, if it varies.
+fn along_beam(reader: &mut Reader<'_>, key: &str, value: &Value, length: &str) -> Vec<Value> {
+    match along::uses(reader, key, value) {
+        true => {
+            let places = ["0".to_string(), format!("{length}/2"), length.to_string()];
+            places.iter().map(|s| along::inserted(value, s)).list()
+        }
+        false => vec![value.clone()],
+    }
 }
 
 /// A cross section, as texts.
@@ -32,16 +65,15 @@ struct SectionTexts {
 
 const GIVEN: [&str; 3] = ["EA", "EI", "GA"];
 
-/// Reads the section and the material of a beam.
-pub fn read(reader: &mut Reader<'_>) -> Option<Stiffness> {
-    let sheared = reader.entry.get("shear") != Some(&Value::Flag(false));
+/// Reads the section and the material of a beam with this length as text.
+pub fn read(reader: &mut Reader<'_>, length: &str) -> Option<Stiffness> {
     match reader.entry.get("section") {
-        Some(_) => of_section(reader, sheared),
-        None => as_given(reader, sheared),
+        Some(_) => of_section(reader, length),
+        None => as_given(reader, length),
     }
 }
 
-fn as_given(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
+fn as_given(reader: &mut Reader<'_>, length: &str) -> Option<Stiffness> {
     for key in ["young", "poisson", "density"] {
         if reader.entry.get(key).is_some() {
             let instead = if key == "density" { "mass_per_length" } else { "EA, EI and GA" };
@@ -50,38 +82,43 @@ fn as_given(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
             return None;
         }
     }
-    let needed = if sheared { &GIVEN[..] } else { &GIVEN[..2] };
-    if let Some(key) = needed.iter().find(|key| reader.entry.get(key).is_none()) {
-        let or = match *key {
-            "GA" => "; a GA as large as EA leaves little shear",
-            _ => "",
-        };
+    let without = [("EA", "inextensible = true"), ("GA", "shear = false")];
+    let flags = [("inextensible", true), ("shear", false)];
+    let locked = flags.map(|(key, by)| reader.entry.get(key) == Some(&Value::Flag(by)));
+    for key in GIVEN {
+        let place = without.iter().position(|(of, _)| *of == key);
+        if reader.entry.get(key).is_some() || place.is_some_and(|k| locked[k]) {
+            continue;
+        }
+        let or = place.map_or(String::new(), |k| format!("; {} needs no {key}", without[k].1));
         let all = GIVEN.join(", ");
         reader.missing(&format!("'{key}' is missing; give section and young, or all of {all}{or}"));
         return None;
     }
-    let [axial, bending] =
-        [("EA", "N"), ("EI", "N*m^2")].map(|(key, unit)| reader.number(key, unit));
-    let shear = match reader.entry.get("GA") {
-        Some(_) => reader.number("GA", "N"),
-        None => Some(Tape::from(1.0)),
+    let mut given = |key: &str, unit: &str| match reader.entry.get(key) {
+        Some(_) => number(reader, key, unit, length),
+        None => Some("1".to_string()),
     };
-    for key in GIVEN {
+    let (axial, shear, bending) = (given("EA", "N")?, given("GA", "N")?, given("EI", "N*m^2")?);
+    for (key, text) in [("EA", &axial), ("EI", &bending), ("GA", &shear)] {
         // a quotient of two of them follows
-        let x = reader.entry.get(key).map_or(1.0, |value| reader.value(&term(value)));
+        let x = reader.value(&along::at(text, "0"));
         if x <= 0.0 {
             reader.report(key, &format!("{x}; must be > 0"));
             return None;
         }
     }
-    let texts = ["EA", "EI"].map(|key| reader.entry.get(key).map_or(String::new(), term));
-    let (mass, inertia) = masses(reader, None, &format!("{}/{}", texts[1], texts[0]))?;
-    let (by_force, by_moment) = (Tape::from(0.0), Tape::from(0.0));
-    let (axial, bending, shear) = (axial?, bending?, shear?);
+    let texts = ["EA", "EI"].map(|key| reader.entry.get(key).map(term));
+    let radius = match texts {
+        [Some(axial), Some(bending)] => Some(format!("{bending}/{axial}")),
+        _ => None,
+    };
+    let (mass, inertia) = masses(reader, None, radius, length)?;
+    let (by_force, by_moment) = ("0".to_string(), "0".to_string());
     Some(Stiffness { axial, shear, bending, by_force, by_moment, mass, inertia })
 }
 
-fn of_section(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
+fn of_section(reader: &mut Reader<'_>, length: &str) -> Option<Stiffness> {
     for key in GIVEN {
         if reader.entry.get(key).is_some() {
             let message =
@@ -90,13 +127,12 @@ fn of_section(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
             return None;
         }
     }
-    let shape = shape(reader)?;
+    let shape = shape(reader, length)?;
     if reader.entry.get("young").is_none() {
         reader.missing("'young' is missing: a section needs Young's modulus, such as \"210 GPa\"");
         return None;
     }
-    reader.number("young", "Pa")?;
-    let young = term(reader.entry.get("young")?);
+    let young = number(reader, "young", "Pa", length)?;
     let poisson = match reader.entry.get("poisson") {
         Some(value) => {
             reader.number("poisson", "")?;
@@ -110,20 +146,22 @@ fn of_section(reader: &mut Reader<'_>, sheared: bool) -> Option<Stiffness> {
         return None;
     }
     let SectionTexts { area, second, face, factor } = shape;
-    let axial = reader.compose(&format!("{young}*{area}"));
-    let bending = reader.compose(&format!("{young}*{second}"));
-    let shear = match sheared {
-        true => reader.compose(&format!("{factor}*{young}*{area}/(2*(1+{poisson}))")),
-        false => Tape::from(1.0),
-    };
-    let by_force = reader.compose(&format!("1/{area}"));
-    let by_moment = reader.compose(&format!("{face}/{second}"));
-    let (mass, inertia) = masses(reader, Some(&area), &format!("{second}/{area}"))?;
+    let axial = format!("{young}*{area}");
+    let bending = format!("{young}*{second}");
+    let shear = format!("{factor}*{young}*{area}/(2*(1+{poisson}))");
+    let by_force = format!("1/{area}");
+    let by_moment = format!("{face}/{second}");
+    let (mass, inertia) = masses(reader, Some(&area), Some(format!("{second}/{area}")), length)?;
     Some(Stiffness { axial, shear, bending, by_force, by_moment, mass, inertia })
 }
 
-/// Mass and moment of inertia per length. `radius` is the squared radius of gyration of the section.
-fn masses(reader: &mut Reader<'_>, area: Option<&str>, radius: &str) -> Option<(String, String)> {
+/// Mass and moment of inertia per length. `radius` is the squared radius of gyration of the section, if it is known.
+fn masses(
+    reader: &mut Reader<'_>,
+    area: Option<&str>,
+    radius: Option<String>,
+    length: &str,
+) -> Option<(String, String)> {
     let given = |reader: &Reader<'_>, key: &str| reader.entry.get(key).map(term);
     let mass = match (given(reader, "density"), given(reader, "mass_per_length"), area) {
         (Some(_), Some(_), _) => {
@@ -131,11 +169,11 @@ fn masses(reader: &mut Reader<'_>, area: Option<&str>, radius: &str) -> Option<(
             return None;
         }
         (Some(density), None, Some(area)) => {
-            reader.number("density", "kg/m^3")?;
+            number(reader, "density", "kg/m^3", length)?;
             format!("{density}*{area}")
         }
         (_, Some(mass), _) => {
-            reader.number("mass_per_length", "kg/m")?;
+            number(reader, "mass_per_length", "kg/m", length)?;
             mass
         }
         _ => {
@@ -147,17 +185,24 @@ fn masses(reader: &mut Reader<'_>, area: Option<&str>, radius: &str) -> Option<(
             return None;
         }
     };
-    let inertia = match given(reader, "inertia_per_length") {
-        Some(inertia) => {
-            reader.number("inertia_per_length", "kg*m")?;
+    let inertia = match (given(reader, "inertia_per_length"), radius) {
+        (Some(inertia), _) => {
+            number(reader, "inertia_per_length", "kg*m", length)?;
             inertia
         }
-        None => format!("({mass}*{radius})"),
+        (None, Some(radius)) => format!("({mass}*{radius})"),
+        (None, None) => {
+            reader.missing(
+                "'inertia_per_length' is missing, which follows from EA in other beams; it may be 0 where only \
+                 equilibria are computed",
+            );
+            return None;
+        }
     };
     Some((format!("({mass})"), inertia))
 }
 
-fn shape(reader: &mut Reader<'_>) -> Option<SectionTexts> {
+fn shape(reader: &mut Reader<'_>, length: &str) -> Option<SectionTexts> {
     let form =
         "{ rectangle = [height, width] }, { circle = diameter } or { tube = [outer, inner] }";
     let Some(Value::Table(fields)) = reader.entry.get("section") else {
@@ -171,35 +216,54 @@ fn shape(reader: &mut Reader<'_>) -> Option<SectionTexts> {
     let path: Vec<String> = reader.path("section").into_iter().chain([kind.clone()]).list();
     let texts = match (kind.as_str(), value) {
         ("rectangle" | "tube", Value::List(items)) if items.len() == 2 => {
-            reader.scope.pair(value, &path, "m", reader.problems)?;
             items.iter().map(term).list()
         }
-        ("circle", value) => {
-            let reach = Reach::Parameters;
-            reader.scope.formula(value, &path, "m", reach, reader.problems)?;
-            vec![term(value)]
-        }
+        ("circle", Value::Number(_) | Value::Text(_)) => vec![term(value)],
         _ => {
             reader.report("section", &format!("must be {form}"));
             return None;
         }
     };
-    let numbers: Vec<f64> = texts.iter().map(|text| reader.value(text)).list();
+    for (k, at) in along_beam(reader, "section", value, length).iter().enumerate() {
+        match at {
+            Value::List(_) => {
+                reader.scope.pair(at, &path, "m", reader.problems)?;
+            }
+            _ => {
+                let reach = Reach::Parameters;
+                reader.scope.formula(at, &path, "m", reach, reader.problems)?;
+            }
+        }
+        let s = ["0", &format!("{length}/2"), length][k].to_string();
+        let numbers: Vec<f64> = texts.iter().map(|text| reader.value(&along::at(text, &s))).list();
+        if let Some(message) = impossible(kind, &numbers) {
+            let varies = texts.iter().any(|text| along::varies(text));
+            let place = match varies {
+                true => format!(" at s = {} m", reader.value(&s)),
+                false => String::new(),
+            };
+            reader.report("section", &format!("{}{place}; {}", message.0, message.1));
+            return None;
+        }
+    }
+    Some(texts_of(kind, &texts))
+}
+
+/// The dimensions of an impossible section, and what they must be.
+fn impossible(kind: &str, numbers: &[f64]) -> Option<(String, &'static str)> {
     let least = if kind == "tube" { 0.0 } else { f64::MIN_POSITIVE };
     let possible = numbers[0] > 0.0
         && numbers.iter().all(|x| *x >= least && x.is_finite())
         && !(kind == "tube" && numbers[1] >= numbers[0]);
-    if !possible && numbers.iter().all(|x| !x.is_nan()) {
-        let words = numbers.iter().map(|x| format!("{x} m")).list().join(" and ");
-        let must = if kind == "tube" {
-            "the outer diameter must be larger than the inner one"
-        } else {
-            "must be > 0"
-        };
-        reader.report("section", &format!("{kind} of {words}; {must}"));
+    if possible || numbers.iter().any(|x| x.is_nan()) {
         return None;
     }
-    Some(texts_of(kind, &texts))
+    let words = numbers.iter().map(|x| format!("{x} m")).list().join(" and ");
+    let must = match kind {
+        "tube" => "the outer diameter must be larger than the inner one",
+        _ => "must be > 0",
+    };
+    Some((format!("{kind} of {words}"), must))
 }
 
 /// Area, second moment of area, distance of the faces and shear factor of a section with these dimensions.

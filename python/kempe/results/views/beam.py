@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 _STATIONS = 5
 #: The results of an element, each in all places.
 _ALONG = ("s", "x", "y", "angle", "normal_force", "shear_force", "bending_moment", "stress")
+#: Largest relative jump of the bending moment between elements that counts as small.
+_SMALL = 1e-3
+#: Bending below this angle, or this part of the moment of the other forces, is a rounding error.
+_ROUNDING = 1e-9
 #: The results of an element as a whole: name, unit, and how those of all elements are joined.
 WHOLE = (
     ("stress", "Pa", np.max),
@@ -38,9 +42,17 @@ def has_stress(compiled: CompiledModel, name: str) -> bool:
     return "section" in compiled.tree["bodies"][name]
 
 
+def locks(compiled: CompiledModel, name: str, strain: str) -> list[str]:
+    """The locks ``inextensible`` or ``unsheared`` of a beam; empty if it has none."""
+    of = (lock.name for lock in compiled.locks(name))
+    return [lock for lock in of if lock.startswith(f"{name}.{strain}_")]
+
+
 def whole(motion: Motion, name: str, quantity: str) -> Any:
     """A result of a beam as a whole: ``stress``, ``bending_moment`` or ``strain_energy``."""
     k = [known for known, _, _ in WHOLE].index(quantity)
+    if quantity == "stress" and (stretch := locks(motion.compiled, name, "inextensible")):
+        return np.max(np.stack([motion.results(lock)[..., -1] for lock in stretch]), axis=0)
     of = [motion.force_results(piece) for piece in pieces(motion.compiled, name)]
     column = np.stack([rows[..., _STATIONS * len(_ALONG) + k] for rows in of])
     return WHOLE[k][2](column, axis=0)
@@ -74,6 +86,14 @@ class BeamView:
     def _tables(self) -> list[Floats]:
         return [self._motion.force_results(name) for name in self._pieces]
 
+    def _locked(self, strain: str, first: int) -> Floats | None:
+        """Results of the locks from column ``first``; None if the beam has the strain."""
+        names = locks(self._motion.compiled, self.name, strain)
+        if not names:
+            return None
+        parts = [self._motion.results(name)[..., first : first + _STATIONS] for name in names]
+        return fixed(np.concatenate(parts, axis=-1))
+
     def _along(self, quantity: str) -> Floats:
         first = _STATIONS * _ALONG.index(quantity)
         parts = [table[..., first : first + _STATIONS] for table in self._tables]
@@ -102,12 +122,14 @@ class BeamView:
     @property
     def normal_force(self) -> Floats:
         """Normal force, N; positive if it pulls."""
-        return self._along("normal_force")
+        locked = self._locked("inextensible", 0)
+        return self._along("normal_force") if locked is None else locked
 
     @property
     def shear_force(self) -> Floats:
         """Shear force, N: that of the part beyond the section, to the left of the beam."""
-        return self._along("shear_force")
+        locked = self._locked("unsheared", 0)
+        return self._along("shear_force") if locked is None else locked
 
     @property
     def bending_moment(self) -> Floats:
@@ -127,7 +149,8 @@ class BeamView:
                 name=self.name,
                 hint="give section and young in place of EA, EI and GA",
             )
-        return self._along("stress")
+        locked = self._locked("inextensible", _STATIONS)
+        return self._along("stress") if locked is None else locked
 
     @property
     def strain_energy(self) -> Any:
@@ -144,12 +167,27 @@ class BeamView:
         """
         moment = self.bending_moment
         largest = np.abs(moment).max(initial=0.0)
+        forces = np.abs([self.normal_force, self.shear_force]).max(initial=0.0)
+        turned = 2.0 * np.max(self.strain_energy) / largest if largest > 0.0 else 0.0
+        if turned < _ROUNDING or largest < _ROUNDING * forces * self.s[-1]:
+            return 0.0
         # a joint or torque at a named point may make the moment jump
         ends = [self._motion.compiled.forces[piece].j for piece in self._pieces[:-1]]
         inner = [k for k, node in enumerate(ends) if ".#" in node]
         after = [_STATIONS * (k + 1) for k in inner]
         jumps = np.abs(moment[..., after] - moment[..., [k - 1 for k in after]])
-        return float(jumps.max(initial=0.0) / largest) if largest > 0.0 else 0.0
+        return float(jumps.max(initial=0.0) / largest)
+
+    @property
+    def enough(self) -> int:
+        """Number of elements with which ``error`` would be about 1e-3, or that of the beam.
+
+        The jumps of the bending moment decrease with the square of the length of the elements.
+        """
+        more = np.sqrt(self.error / _SMALL)
+        return max(len(self._tables), int(np.ceil(more * len(self._tables))))
 
     def __repr__(self) -> str:
-        return f"<beam {self.name!r}: {len(self._tables)} elements, {self.s[-1]:g} m>"
+        error, enough = self.error, self.enough
+        more = f", error {error:.1e}: {enough} are enough" if enough > len(self._tables) else ""
+        return f"<beam {self.name!r}: {len(self._tables)} elements, {self.s[-1]:g} m{more}>"
