@@ -191,6 +191,12 @@ impl<'a> StepPart<'a> {
         bounds.reduce(|a, b| Some(a?.min(b?)))?
     }
 
+    /// The least distance of all parts of a contact. None if it is not known.
+    pub fn gap(&self, force: usize) -> Option<Bounds> {
+        let all = self.model.parts(force).map(|part| self.clearance(part, None));
+        all.reduce(|a, b| Some(a?.min(b?)))?
+    }
+
     /// The function 1 + c δ̇ of a compliant contact, which is 1 where the bodies are apart.
     pub fn pushes(&self, force: usize, place: usize) -> Option<Bounds> {
         let behaviour = self.model.forces[force].element.behaviour();

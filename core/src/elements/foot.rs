@@ -9,7 +9,7 @@
 //! only beyond the ends.
 
 use super::apart::{from_corner, Apart, Way};
-use super::field::{Field, Shape};
+use super::field::{Default, Field, Shape};
 use super::kinds::{self, CurveOn, Kind, Side, Source};
 use super::nearest::{AlongCurve, CurveSearch};
 use super::plane_curve::Curve;
@@ -37,9 +37,14 @@ impl<S> Rim<S> {
         Self { on, searches: OnceLock::new(), known: Arc::default() }
     }
 
+    /// Whether the nearest point is a formula of the coordinates.
+    pub fn has_formulas(&self) -> bool {
+        matches!(self.on.curve, Curve::Line { .. } | Curve::Circle { .. })
+    }
+
     /// Whether the nearest point has a closed form.
     pub fn is_closed_form(&self) -> bool {
-        matches!(self.on.curve, Curve::Line { .. } | Curve::Circle { .. })
+        self.has_formulas() || matches!(self.on.curve, Curve::Polygon(_))
     }
 }
 
@@ -57,6 +62,23 @@ impl Kind for rim {
     fn map<S, T>(value: &Rim<S>, f: &mut dyn FnMut(&S) -> T) -> Rim<T> {
         let known = Arc::clone(&value.known);
         Rim { on: kinds::curve::map(&value.on, f), searches: OnceLock::new(), known }
+    }
+}
+
+/// A curve of a contact that another form of the element replaces, so that the field may be absent.
+#[allow(non_camel_case_types)] // a type in `element!`, written like a word
+#[derive(Clone, Copy, Debug)]
+pub enum rim_or_curves {}
+
+impl Kind for rim_or_curves {
+    type Over<S> = Rim<S>;
+    const SHAPE: Shape = rim::SHAPE;
+    const DEFAULT: Option<Default> = Some(Default::Absent);
+    fn read(source: &mut dyn Source, field: &Field) -> Option<Rim<Tape>> {
+        rim::read(source, field)
+    }
+    fn map<S, T>(value: &Rim<S>, f: &mut dyn FnMut(&S) -> T) -> Rim<T> {
+        rim::map(value, f)
     }
 }
 
@@ -99,6 +121,7 @@ impl Rim {
                 let flat = if distance > 0.0 { level } else { inside > up + within };
                 of(distance, away, if flat { 0.0 } else { from_corner(distance, within) })
             }
+            Curve::Polygon(own) => own.apart(p, way),
             curve => self.searched_apart(curve, p, side, (way, far)),
         }
     }
@@ -159,6 +182,7 @@ impl<S: Real> Rim<S> {
         match &self.on.curve {
             Curve::Circle { center, radius } => of_circle(p, *center, *radius, out),
             Curve::Line { from, to } => of_line(p, *from, *to, out),
+            Curve::Polygon(own) => own.foot(p).near,
             curve => self.searched(curve, p, out),
         }
     }
@@ -272,7 +296,7 @@ fn beyond<S: Real>(end: Local<S>, on: Local<S>, normal: Local<S>, arm: Local<S>)
     choose(up, corner, behind)
 }
 
-fn choose<S: Real>(condition: S, positive: Near<S>, otherwise: Near<S>) -> Near<S> {
+pub(super) fn choose<S: Real>(condition: S, positive: Near<S>, otherwise: Near<S>) -> Near<S> {
     let pick = |a: S, b: S| S::select(condition, a, b);
     let both = |a: Local<S>, b: Local<S>| Local::new(pick(a.x, b.x), pick(a.y, b.y));
     Near {

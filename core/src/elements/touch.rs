@@ -136,12 +136,13 @@ impl<S: Real> CurveTouch<'_, S> {
                 let (u, length) = along_line(p, *from, *to);
                 S::select(-u, of(S::zero()), S::select(u - length, of(S::zero()), S::one()))
             }
+            Curve::Polygon(own) => S::select(own.foot(p).level, S::one(), of(S::zero())),
             _ => S::one(),
         }
     }
 
-    /// s of lines and circles, less `value`, for the poses of bodies i and j. The length along a circle is known up to
-    /// whole turns; that with the smallest magnitude is chosen.
+    /// s of lines, circles and polygons, less `value`, for the poses of bodies i and j. The length along a closed curve
+    /// is known up to whole turns; that with the smallest magnitude is chosen.
     pub fn rolled(&self, i: &Pose<S>, j: &Pose<S>, value: S) -> S {
         let (p, turned) = (self.center(i, j), self.turned());
         let spin = turned * self.radius * (i.angle - j.angle);
@@ -149,8 +150,11 @@ impl<S: Real> CurveTouch<'_, S> {
             Curve::Circle { center, radius } => {
                 let (arm, pitch) = (p - *center, *radius + turned * self.radius);
                 let turn = S::constant(std::f64::consts::TAU) * pitch;
-                let s = pitch * arm.y.atan2(arm.x) - spin - value;
-                s - turn * (s / turn + S::constant(0.5)).floor()
+                within_turn(pitch * arm.y.atan2(arm.x) - spin - value, turn)
+            }
+            Curve::Polygon(own) => {
+                let [length, angle] = own.foot(p).along;
+                within_turn(length + self.radius * angle - spin - value, own.turn(self.radius))
             }
             Curve::Line { from, to } => {
                 let (u, length) = along_line(p, *from, *to);
@@ -164,6 +168,11 @@ impl<S: Real> CurveTouch<'_, S> {
             _ => S::zero(),
         }
     }
+}
+
+/// The value of s with the smallest magnitude that differs by whole turns.
+fn within_turn<S: Real>(s: S, turn: S) -> S {
+    s - turn * (s / turn + S::constant(0.5)).floor()
 }
 
 /// The length along a line to the foot of p, and the length of the line.

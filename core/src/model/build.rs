@@ -40,6 +40,7 @@ pub fn build(
         bodies: bodies.clone().into(),
         constraints: Arc::default(),
         forces: Arc::default(),
+        further: Arc::default(),
         companions: Arc::default(),
         functions: definition.functions.clone(),
         doubts: Vec::new(),
@@ -49,12 +50,13 @@ pub fn build(
         rigid: None,
     };
     let mut rigid = (!linked.is_empty()).then(|| blueprint.clone());
-    blueprint.link_all(definition, &scope, &quantities, &mut problems);
+    let further = blueprint.link_all(definition, &scope, &quantities, &mut problems);
     if let Some(rigid) = rigid.as_mut().filter(|_| problems.is_empty()) {
         link_rigid(rigid, (definition, &scope), (&bodies, &linked), &mut problems);
     }
     blueprint.rigid = rigid.map(Arc::new);
     beams::connect(&mut blueprint, linked);
+    blueprint.add_further(further);
     blueprint.add_companions();
     for (k, unit) in scope.units.take() {
         let functions = blueprint.functions.iter_mut();

@@ -69,7 +69,11 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
             element.map(&mut |x| check(&[section, &item.name], *x, problems));
         }
         if let Some((field, message)) = element.fault() {
-            problems.push(Problem::at(&[section, &item.name, field], message));
+            let problem = Problem::at(&[section, &item.name, field], message);
+            // the parts of a contact have the same fields
+            if !problems.contains(&problem) {
+                problems.push(problem);
+            }
         }
     }
 }

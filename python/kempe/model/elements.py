@@ -895,10 +895,13 @@ class Contact(Element):
         restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
             `stiffness`.
         rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
+        curves: Two curves that touch, of body i and of body j, in place of `i`, `curve` and
+            `side`.
+        sides: The sides of the two curves on which the other one lies; right if absent.
     """
 
-    i: str
-    curve: str
+    i: str | None = None
+    curve: str | None = None
     radius: Number = 0.0
     side: Literal["right", "left"] = "right"
     stiffness: Number | None = None
@@ -909,6 +912,8 @@ class Contact(Element):
     velocity: Number | None = None
     restitution: Number | None = None
     rest_speed: Number = 1e-09
+    curves: Words | None = None
+    sides: Words | None = None
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "contact"
     value_kinds: ClassVar[Mapping[str, str]] = {
@@ -924,6 +929,8 @@ class Contact(Element):
         "velocity": "number",
         "restitution": "number",
         "rest_speed": "number",
+        "curves": "two_texts",
+        "sides": "two_texts",
     }
 
 
@@ -1646,8 +1653,8 @@ class ElementMethods:
     def contact(
         self,
         name: str,
-        i: str,
-        curve: str,
+        i: str | None = None,
+        curve: str | None = None,
         *,
         radius: Number = 0.0,
         side: Literal["right", "left"] = "right",
@@ -1659,6 +1666,8 @@ class ElementMethods:
         velocity: Number | None = None,
         restitution: Number | None = None,
         rest_speed: Number = 1e-09,
+        curves: Words | None = None,
+        sides: Words | None = None,
     ) -> Contact:
         """Add an element of type ``contact`` and return it.
 
@@ -1690,6 +1699,9 @@ class ElementMethods:
             restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
                 `stiffness`.
             rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
+            curves: Two curves that touch, of body i and of body j, in place of `i`, `curve` and
+                `side`.
+            sides: The sides of the two curves on which the other one lies; right if absent.
         """
         return self._add(
             Contact(
@@ -1706,5 +1718,7 @@ class ElementMethods:
                 velocity=velocity,
                 restitution=restitution,
                 rest_speed=rest_speed,
+                curves=curves,
+                sides=sides,
             )
         )

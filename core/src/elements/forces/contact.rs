@@ -33,9 +33,9 @@ element! {
     /// bodies separate with -restitution times the rate of their approach, or rest on each other.
     Contact, "contact" {
         /// Point of body i, as `body.point`.
-        i: point,
+        i: point_or_curves,
         /// Curve of body j, as `body.curve`.
-        curve: rim,
+        curve: rim_or_curves,
         /// Radius of the circle around the point; 0 for the point itself.
         radius: number [m] = 0.0,
         /// Side of the curve on which the point lies, seen in the direction of growing u.
@@ -57,6 +57,10 @@ element! {
         restitution: optional_number,
         /// With `restitution`: rate below which the bodies rest on each other.
         rest_speed: number [m/s] = 1e-9,
+        /// Two curves that touch, of body i and of body j, in place of `i`, `curve` and `side`.
+        curves: two_texts,
+        /// The sides of the two curves on which the other one lies; right if absent.
+        sides: two_texts,
     }
 }
 
@@ -144,7 +148,7 @@ impl Force for Contact {
     }
 
     fn has_formulas<S>(e: &Contact<S>) -> bool {
-        e.curve.is_closed_form()
+        e.curve.has_formulas()
     }
 
     fn measure<S: Real>(e: &Contact<S>, at: &At<'_, S>, out: &mut [S]) {
@@ -287,7 +291,7 @@ impl Force for Contact {
             }
             _ => {}
         }
-        if curve.fault().is_none() {
+        if curve.fault().is_none() && !e.curve.is_closed_form() {
             if let Some(message) = contact::cusp(curve) {
                 return Some(("curve", message));
             }

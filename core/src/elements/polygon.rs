@@ -1,0 +1,219 @@
+//! Closed polygons of straight edges: the point nearest to a given point.
+//!
+//! Outside of a convex polygon, the nearest point is on an edge or at a corner, and the distance has a continuous
+//! gradient. Inside, it is on the edge that is least far away. A contact with a polygon that is not convex is a contact
+//! with each of its convex parts, see `elements/convex_parts.rs`.
+
+use super::apart::{from_corner, Apart, Way};
+use super::convex_parts;
+use super::foot::{choose, Near};
+use crate::math::{each, Listed, Local, Real};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// A point beyond the end of an edge by this fraction of the polygon counts as above the edge. Two corners that are
+/// stacked on each other up to rounding errors thus touch along the normal of an edge.
+const SLACK: f64 = 1e-11;
+
+/// An edge of a polygon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Edge {
+    from: Local,
+    /// Its direction, a unit vector.
+    along: Local,
+    length: f64,
+    /// The length of the edges before it.
+    start: f64,
+    /// The angle by which the edges before it turn.
+    turn: f64,
+}
+
+impl Edge {
+    /// The outward normal.
+    fn normal(&self) -> Local {
+        -self.along.perp()
+    }
+
+    /// The length along the edge to the foot of p, and the height of p above the edge.
+    fn of(&self, p: Local) -> [f64; 2] {
+        let arm = p - self.from;
+        [self.along.dot(arm), self.normal().dot(arm)]
+    }
+}
+
+/// The edge or corner nearest to a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Feature {
+    Edge(usize),
+    /// The corner at which an edge begins.
+    Corner(usize),
+}
+
+/// A closed polygon with its corners in counter-clockwise order.
+#[derive(Clone, Debug)]
+pub struct Polygon {
+    edges: Arc<[Edge]>,
+}
+
+/// The nearest point of a polygon.
+pub(super) struct PolygonFoot<S> {
+    pub near: Near<S>,
+    /// 1 above an edge, 0 at a corner.
+    pub level: S,
+    /// The length along the polygon, and the angle by which its normal turns, up to the nearest point.
+    pub along: [S; 2],
+}
+
+fn constant<S: Real>(s: Local) -> Local<S> {
+    Local::new(S::constant(s.x), S::constant(s.y))
+}
+
+impl Polygon {
+    /// The polygon with these corners.
+    pub fn new(corners: &[Local]) -> Self {
+        let count = corners.len();
+        let (mut start, mut turn, mut before) = (0.0, 0.0, None::<Local>);
+        let edge = |k: usize| {
+            let from = corners[k];
+            let way = corners[(k + 1) % count] - from;
+            let length = way.norm();
+            let along = way.scale(1.0 / length);
+            turn += before.map_or(0.0, |last| last.cross(along).atan2(last.dot(along)));
+            let edge = Edge { from, along, length, start, turn };
+            (start, before) = (start + length, Some(along));
+            edge
+        };
+        Self { edges: (0..count).map(edge).list().into() }
+    }
+
+    /// Its corners.
+    pub fn corners(&self) -> Vec<Local> {
+        self.edges.iter().map(|edge| edge.from).list()
+    }
+
+    /// Its circumference.
+    pub fn length(&self) -> f64 {
+        self.edges.last().map_or(0.0, |edge| edge.start + edge.length)
+    }
+
+    /// C, C′, C″ and C‴ at a length along it.
+    pub fn derivatives<S: Real>(&self, u: S) -> [Local<S>; 4] {
+        let at = u.in_lanes()[0];
+        let whole = self.length() * (at / self.length()).floor();
+        let k = self.edges.iter().rposition(|edge| edge.start <= at - whole).unwrap_or(0);
+        let Edge { from, along, start, .. } = self.edges[k];
+        let along = constant(along);
+        let here = constant(from) + along.scale(u - S::constant(whole + start));
+        [here, along, Local::zero(), Local::zero()]
+    }
+
+    /// The reason why it cannot be used.
+    pub fn fault(&self) -> Option<String> {
+        convex_parts::fault(&self.corners())
+    }
+
+    /// The edge or corner nearest to p, for a convex polygon.
+    fn feature(&self, p: Local) -> Feature {
+        let slack = SLACK * self.length();
+        let (mut highest, mut nearest) =
+            ((f64::NEG_INFINITY, 0), (f64::INFINITY, Feature::Edge(0)));
+        for (k, edge) in self.edges.iter().enumerate() {
+            let [u, up] = edge.of(p);
+            if up > highest.0 {
+                highest = (up, k);
+            }
+            let beyond = f64::max(-u, u - edge.length);
+            let (distance, feature) = match beyond > slack {
+                true if u < 0.0 => (up.hypot(beyond), Feature::Corner(k)),
+                true => (up.hypot(beyond), Feature::Corner((k + 1) % self.edges.len())),
+                false => (up, Feature::Edge(k)),
+            };
+            if up > 0.0 && distance < nearest.0 {
+                nearest = (distance, feature);
+            }
+        }
+        match highest.0 > 0.0 {
+            true => nearest.1,
+            false => Feature::Edge(highest.1),
+        }
+    }
+
+    /// The point nearest to p, for a convex polygon.
+    pub(super) fn foot<S: Real>(&self, p: Local<S>) -> PolygonFoot<S> {
+        let (x, y) = (p.x.in_lanes(), p.y.in_lanes());
+        let mut features = [self.feature(Local::new(x[0], y[0])); 4];
+        for lane in (1..4).filter(|lane| (x[*lane], y[*lane]) != (x[0], y[0])) {
+            features[lane] = self.feature(Local::new(x[lane], y[lane]));
+        }
+        let mut found = self.foot_on(features[0], p);
+        for lane in (1..4).filter(|lane| !features[..*lane].contains(&features[*lane])) {
+            let own = each(features, |of| if of == features[lane] { 1.0 } else { -1.0 });
+            let (own, other) = (S::of_lanes(own), self.foot_on(features[lane], p));
+            let pick = |a: S, b: S| S::select(own, a, b);
+            found = PolygonFoot {
+                near: choose(own, other.near, found.near),
+                level: pick(other.level, found.level),
+                along: each([0, 1], |k| pick(other.along[k], found.along[k])),
+            };
+        }
+        found
+    }
+
+    fn foot_on<S: Real>(&self, feature: Feature, p: Local<S>) -> PolygonFoot<S> {
+        let of = S::constant;
+        match feature {
+            Feature::Edge(k) => {
+                let edge = &self.edges[k];
+                let (from, along) = (constant::<S>(edge.from), constant::<S>(edge.along));
+                let (away, arm) = (constant::<S>(edge.normal()), p - from);
+                let u = along.dot(arm);
+                PolygonFoot {
+                    near: Near { distance: away.dot(arm), away, place: from + along.scale(u) },
+                    level: S::one(),
+                    along: [of(edge.start) + u, of(edge.turn)],
+                }
+            }
+            Feature::Corner(k) => {
+                let (last, place) = (self.before(k), constant::<S>(self.edges[k].from));
+                let (normal, arm) = (constant::<S>(last.normal()), p - place);
+                let distance = arm.norm();
+                let away = arm.scale(S::one() / distance);
+                let turned = normal.cross(away).atan2(normal.dot(away));
+                PolygonFoot {
+                    near: Near { distance, away, place },
+                    level: S::zero(),
+                    along: [of(last.start + last.length), of(last.turn) + turned],
+                }
+            }
+        }
+    }
+
+    /// The edge before an edge.
+    fn before(&self, k: usize) -> &Edge {
+        &self.edges[(k + self.edges.len() - 1) % self.edges.len()]
+    }
+
+    /// The length rolled by a circle once around a convex polygon.
+    pub(super) fn turn<S: Real>(&self, radius: S) -> S {
+        S::constant(self.length()) + S::constant(TAU) * radius
+    }
+
+    /// The distance of p from a convex polygon, with the turning of its gradient along a way around p.
+    pub(super) fn apart(&self, p: Local, way: Way) -> Apart {
+        let (near, within) = (self.foot(p).near, way.within);
+        let Near { distance, away, .. } = near;
+        let flat = match self.feature(p) {
+            Feature::Corner(_) => false,
+            Feature::Edge(k) => {
+                let [u, up] = self.edges[k].of(p);
+                let level = u.min(self.edges[k].length - u) > within;
+                // inside, no other edge is nearer
+                let others = self.edges.iter().enumerate().filter(|(other, _)| *other != k);
+                let highest = others.map(|(_, edge)| edge.of(p)[1]).fold(f64::MIN, f64::max);
+                level && (up > within || highest + 2.0 * within < up)
+            }
+        };
+        let bend = if flat { 0.0 } else { from_corner(distance, within) };
+        Apart { distance, away, bend, error: 0.0, other: f64::INFINITY }
+    }
+}

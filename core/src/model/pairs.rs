@@ -1,0 +1,234 @@
+//! Contacts of two curves, and contacts with a polygon.
+//!
+//! Such a contact consists of contacts of a point or circle with a curve. Of two polygons, each convex corner of one may
+//! touch each convex part of the other: the first touch of two polygons is that of a corner. A line is a polygon with
+//! two corners. A circle is the circle around its centre. All of these contacts have the name of the written contact.
+
+use super::definition::Value;
+use super::link::{Linker, Pairing};
+use crate::elements::{
+    catalogue, convex_corners, convex_parts, Curve, CurveOn, Field, ForceElement, Group, PointOn,
+    Polygon, Side, Source, Table,
+};
+use crate::expression::Tape;
+use crate::math::{Listed, Local};
+
+/// The fields of the two forms of a contact.
+const OF_POINT: [&str; 3] = ["i", "curve", "side"];
+const OF_CURVES: [&str; 2] = ["curves", "sides"];
+
+/// Largest number of contacts of a point or circle in one contact.
+const MOST: usize = 2000;
+
+/// Reads a force: several elements, if it is a contact of two curves or with a polygon. The outer option is None if
+/// there is no such type.
+pub(super) fn read(kind: &str, linker: &mut Linker<'_>) -> Option<Option<Vec<ForceElement<Tape>>>> {
+    let given = |field: &str| linker.entry.get(field).is_some();
+    if !given(OF_CURVES[0]) && !given(OF_CURVES[1]) && !given(OF_POINT[1]) {
+        return ForceElement::read(kind, linker).map(|e| e.map(|e| vec![e]));
+    }
+    let tables = catalogue().into_iter();
+    let has_curves = |table: &Table| table.fields.iter().any(|of| of.name == OF_CURVES[0]);
+    let own = |(group, table): &(Group, Table)| {
+        *group == Group::Forces && table.name == kind && has_curves(table)
+    };
+    let Some((_, table)) = { tables }.find(own) else {
+        return ForceElement::read(kind, linker).map(|e| e.map(|e| vec![e]));
+    };
+    let pairings = match linker.entry.get(OF_CURVES[0]) {
+        Some(_) => of_curves(&table.fields, linker),
+        None => of_point(&table.fields, linker),
+    };
+    let Some(pairings) = pairings else { return Some(None) };
+    if pairings.is_empty() {
+        return ForceElement::read(kind, linker).map(|e| e.map(|e| vec![e]));
+    }
+    let mut found = Vec::new();
+    for pairing in pairings {
+        linker.pairing = Some(pairing);
+        match ForceElement::read(kind, linker) {
+            Some(Some(element)) => found.push(element),
+            other => return other.map(|_| None),
+        }
+    }
+    Some(Some(found))
+}
+
+fn field<'f>(fields: &'f [Field], name: &str) -> &'f Field {
+    fields.iter().find(|field| field.name == name).expect("a field of a contact")
+}
+
+/// The pairings of a point and a polygon; none for another curve, or where `sides` stands without `curves`.
+fn of_point(fields: &[Field], linker: &mut Linker<'_>) -> Option<Vec<Pairing>> {
+    if linker.entry.get(OF_CURVES[1]).is_some() {
+        let hint = "give curves too, or side";
+        let message = "belongs to a contact of two curves".to_string();
+        return linker.report(field(fields, OF_CURVES[1]), message, Some(hint.to_string()));
+    }
+    let [point, curve, side] = OF_POINT.map(|name| field(fields, name));
+    let on = linker.curve(curve)?;
+    let TouchForm::Edged { parts, .. } = TouchForm::of(&on, Side::Right) else {
+        return Some(Vec::new());
+    };
+    let Curve::Polygon(_) = on.curve else { return Some(Vec::new()) };
+    if matches!(linker.entry.get(OF_POINT[2]), Some(Value::Text(word)) if word == "left") {
+        return linker.report(side, INSIDE.to_string(), None);
+    }
+    let point = linker.point(point)?;
+    let of = |curve: CurveOn<Tape>| Pairing {
+        point: point.clone(),
+        curve,
+        side: Side::Right,
+        radius: None,
+    };
+    Some(parts.into_iter().map(of).list())
+}
+
+const INSIDE: &str = "a polygon is touched from outside, at its right; \
+                      write walls around a body as lines or as several polygons";
+
+/// The pairings of two curves.
+fn of_curves(fields: &[Field], linker: &mut Linker<'_>) -> Option<Vec<Pairing>> {
+    let [curves, sides] = OF_CURVES.map(|name| field(fields, name));
+    if let Some(name) = OF_POINT.iter().find(|name| linker.entry.get(name).is_some()) {
+        let hint = format!("keep either {name} or curves");
+        let message = "takes the place of i, curve and side".to_string();
+        return linker.report(curves, message, Some(hint));
+    }
+    let [i, j] = two_texts(curves, linker)?;
+    let both = [linker.curve_named(curves, i), linker.curve_named(curves, j)];
+    let both = match both {
+        [Some(i), Some(j)] => [i, j],
+        _ => return None,
+    };
+    let sides_of = match linker.entry.get(OF_CURVES[1]) {
+        None => [Side::Right; 2],
+        Some(_) => {
+            let words = two_texts(sides, linker)?;
+            let of = |word: &str| match word {
+                "right" => Some(Side::Right),
+                "left" => Some(Side::Left),
+                _ => None,
+            };
+            let (Some(i), Some(j)) = (of(words[0]), of(words[1])) else {
+                let message = "each must be 'right' or 'left'".to_string();
+                return linker.report(sides, message, None);
+            };
+            [i, j]
+        }
+    };
+    for (on, side) in both.iter().zip(sides_of) {
+        if matches!((&on.curve, side), (Curve::Polygon(_), Side::Left)) {
+            return linker.report(sides, INSIDE.to_string(), None);
+        }
+    }
+    let Some(pairings) = pairings([&both[0], &both[1]], sides_of) else {
+        let message = format!(
+            "no contact of '{i}' with '{j}': of two curves, one must be a circle that is touched from outside, or \
+             both must be polygons, lines or circles, one of them touched from inside at most"
+        );
+        let hint = "write the other curve as a polygon; n corners on a curve with a radius of curvature r differ from \
+                    it by 5 r/n² at most";
+        return linker.report(curves, message, Some(hint.to_string()));
+    };
+    if pairings.iter().any(|of| of.radius.is_some()) && linker.entry.get("radius").is_some() {
+        let message = "a circle has its own radius; remove it".to_string();
+        return linker.report(field(fields, "radius"), message, None);
+    }
+    if pairings.len() > MOST {
+        let message = format!(
+            "the corners of '{i}' and '{j}' have {} possible contacts; at most {MOST} are allowed",
+            pairings.len()
+        );
+        let hint =
+            "give the contact only the parts of the curves that meet, as polygons of their own";
+        return linker.report(curves, message, Some(hint.to_string()));
+    }
+    Some(pairings)
+}
+
+/// The two texts of a field.
+fn two_texts<'a>(field: &Field, linker: &mut Linker<'a>) -> Option<[&'a str; 2]> {
+    if let Some(Value::List(items)) = linker.entry.get(field.name) {
+        if let [Value::Text(first), Value::Text(last)] = &items[..] {
+            return Some([first, last]);
+        }
+    }
+    linker.report(field, "must be a list of two names".to_string(), None)
+}
+
+/// What a curve is for a contact.
+enum TouchForm {
+    /// A circle that is touched from outside.
+    Disc { center: PointOn<Tape>, radius: Tape },
+    /// A polygon or line.
+    Edged { corners: Vec<PointOn<Tape>>, parts: Vec<CurveOn<Tape>> },
+    /// A circle that is touched from inside.
+    Hollow,
+    /// Any other curve.
+    Smooth,
+}
+
+impl TouchForm {
+    fn of(on: &CurveOn<Tape>, side: Side) -> Self {
+        let body = on.body;
+        let point = |s: &Local<Tape>| PointOn { body, s: s.clone() };
+        match &on.curve {
+            Curve::Circle { center, radius } if side == Side::Right => {
+                Self::Disc { center: point(center), radius: radius.clone() }
+            }
+            Curve::Circle { .. } => Self::Hollow,
+            Curve::Line { from, to } => {
+                Self::Edged { corners: vec![point(from), point(to)], parts: vec![on.clone()] }
+            }
+            Curve::Polygon(own) => {
+                let all = own.corners();
+                let at = |s: Local| Local { x: Tape::from(s.x), y: Tape::from(s.y) };
+                let part = |corners: Vec<Local>| CurveOn {
+                    body,
+                    curve: Curve::Polygon(Polygon::new(&corners)),
+                };
+                Self::Edged {
+                    corners: convex_corners(&all).into_iter().map(|s| point(&at(s))).list(),
+                    parts: convex_parts(&all).into_iter().map(part).list(),
+                }
+            }
+            _ => Self::Smooth,
+        }
+    }
+}
+
+/// All pairings in which two curves may touch. None if the curves are refused.
+fn pairings(both: [&CurveOn<Tape>; 2], sides: [Side; 2]) -> Option<Vec<Pairing>> {
+    let one = |point: &PointOn<Tape>, curve: &CurveOn<Tape>, side: Side, radius: Option<&Tape>| {
+        Pairing { point: point.clone(), curve: curve.clone(), side, radius: radius.cloned() }
+    };
+    let corners_on = |corners: &[PointOn<Tape>], parts: &[CurveOn<Tape>], side: Side| {
+        let of = |part| corners.iter().map(move |corner| (corner, part));
+        parts.iter().flat_map(of).map(|(corner, part)| one(corner, part, side, None)).list()
+    };
+    let disc_on = |center: &PointOn<Tape>, radius: &Tape, other: &TouchForm, k: usize| match other {
+        TouchForm::Edged { parts, .. } => {
+            parts.iter().map(|part| one(center, part, sides[k], Some(radius))).list()
+        }
+        _ => vec![one(center, both[k], sides[k], Some(radius))],
+    };
+    let forms = [TouchForm::of(both[0], sides[0]), TouchForm::of(both[1], sides[1])];
+    Some(match &forms {
+        [TouchForm::Disc { center, radius }, other] => disc_on(center, radius, other, 1),
+        [other, TouchForm::Disc { center, radius }] => disc_on(center, radius, other, 0),
+        [TouchForm::Edged { corners, parts }, TouchForm::Edged { corners: of_j, parts: parts_j }] =>
+        {
+            let mut found: Vec<Pairing> = corners_on(corners, parts_j, sides[1]);
+            found.extend::<Vec<Pairing>>(corners_on(of_j, parts, sides[0]));
+            found
+        }
+        [TouchForm::Edged { corners, .. }, TouchForm::Hollow] => {
+            corners_on(corners, &[both[1].clone()], sides[1])
+        }
+        [TouchForm::Hollow, TouchForm::Edged { corners, .. }] => {
+            corners_on(corners, &[both[0].clone()], sides[0])
+        }
+        _ => return None,
+    })
+}
