@@ -307,7 +307,7 @@ impl PyStates {
             self.multipliers(py)?;
             let width = model.forces[k].element.result_quantities().len();
             self.each(py, width, |_, motions, acting, out| {
-                forces::results(model, k, motions, acting, out);
+                actions::results(model, k, motions, acting, out);
             })
         })
     }
@@ -317,8 +317,8 @@ impl PyStates {
         guard("States.force_energy", || {
             let (model, k) = (self.compiled(), force(py, self.compiled(), name)?);
             self.each(py, 2, |_, motions, acting, out| {
-                out[0] = forces::stored(model, k, motions, acting);
-                out[1] = forces::dissipated(model, k, motions, acting);
+                out[0] = actions::stored(model, k, motions, acting);
+                out[1] = actions::dissipated(model, k, motions, acting);
             })
         })
     }

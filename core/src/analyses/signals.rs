@@ -200,14 +200,16 @@ impl Signal {
                     .fold(S::zero(), |all, x| if *sum { all + x } else { all.max(x) })
             }
             Self::ForcePower(k) => power(model, *k, seen),
-            Self::ForceEnergy(k) => forces::stored(model, *k, seen.motions, seen.acting()),
+            Self::ForceEnergy(k) => actions::stored(model, *k, seen.motions, seen.acting()),
             Self::Energy(of) => energy_of(model, *of, seen),
             Self::Drift { order } => drift(model, *order, seen),
             Self::ForceDissipated(k) => match seen.works.get(WORKS + k) {
                 Some(energy) => *energy,
                 None => of_run(seen, |so_far| so_far.of(*k)),
             },
-            Self::ForceDissipating(k) => forces::dissipated(model, *k, seen.motions, seen.acting()),
+            Self::ForceDissipating(k) => {
+                actions::dissipated(model, *k, seen.motions, seen.acting())
+            }
             Self::Balance => of_run(seen, SoFar::reaction_balance),
         }
     }
@@ -235,7 +237,7 @@ fn reaction<S: Real>(model: &Model<S>, k: usize, lam: &[S], seen: &Seen<'_, S>) 
 
 fn force_result<S: Real>(model: &Model<S>, k: usize, place: usize, seen: &Seen<'_, S>) -> S {
     let mut out = vec![S::zero(); model.forces[k].element.result_quantities().len()];
-    forces::results(model, k, seen.motions, seen.acting(), &mut out);
+    actions::results(model, k, seen.motions, seen.acting(), &mut out);
     out[place]
 }
 

@@ -14,11 +14,24 @@ fn turn(a: Local, b: Local, c: Local) -> f64 {
     first.cross(second) / (first.norm() * second.norm())
 }
 
-/// The corners at which the material of a polygon has an angle of less than π.
-pub fn convex_corners(corners: &[Local]) -> Vec<Local> {
+/// Radius of the circle that takes the place of a corner, relative to the circumference. With it, two corners on each
+/// other, as those of equal blocks, touch along the normal of an edge.
+pub const CORNER: f64 = 1e-10;
+
+/// The corners at which the material of a polygon has an angle of less than π: the centres of small circles that touch
+/// both edges from inside, and their radius.
+pub fn convex_corners(corners: &[Local]) -> (Vec<Local>, f64) {
     let n = corners.len();
-    let of = |k: usize| turn(corners[(k + n - 1) % n], corners[k], corners[(k + 1) % n]);
-    (0..n).filter(|k| of(*k) > FLAT).map(|k| corners[k]).list()
+    let length: f64 = (0..n).map(|k| (corners[(k + 1) % n] - corners[k]).norm()).sum();
+    let radius = CORNER * length;
+    let of = |k: usize| {
+        let [a, b, c] = [corners[(k + n - 1) % n], corners[k], corners[(k + 1) % n]];
+        let sine = turn(a, b, c);
+        let [first, second] = [b - a, c - b].map(|way| way.scale(1.0 / way.norm()));
+        // the sum of the directions of both edges away from the corner has the length 2 cos β and the height sin β cos β
+        (sine > FLAT).then(|| b + (second - first).scale(radius / sine))
+    };
+    ((0..n).filter_map(of).list(), radius)
 }
 
 /// Twice the area, positive for corners in counter-clockwise order.
@@ -71,8 +84,9 @@ fn cross([a, b]: [Local; 2], [c, d]: [Local; 2]) -> bool {
     proper || on(of_c, a, b, c) || on(of_d, a, b, d) || on(of_a, c, d, a) || on(of_b, c, d, b)
 }
 
-/// The convex parts that have an edge of the polygon.
-pub fn convex_parts(corners: &[Local]) -> Vec<Vec<Local>> {
+/// The convex parts that have an edge of the polygon, each with its corners, and whether the edge from each corner to the
+/// next is one of the polygon.
+pub fn convex_parts(corners: &[Local]) -> Vec<Vec<(Local, bool)>> {
     let mut parts = triangles(corners);
     let mut k = 0;
     while k < parts.len() {
@@ -87,12 +101,12 @@ pub fn convex_parts(corners: &[Local]) -> Vec<Vec<Local>> {
         }
     }
     let n = corners.len();
-    let has_edge = |part: &Vec<usize>| {
+    let of = |part: Vec<usize>| {
         let next = part.iter().cycle().skip(1);
-        part.iter().zip(next).any(|(a, b)| (a + 1) % n == *b)
+        part.iter().zip(next).map(|(a, b)| (corners[*a], (a + 1) % n == *b)).list()
     };
-    let of = |part: Vec<usize>| part.into_iter().map(|k| corners[k]).list();
-    parts.into_iter().filter(has_edge).map(of).list()
+    let has_edge = |part: &Vec<(Local, bool)>| part.iter().any(|(_, own)| *own);
+    parts.into_iter().map(of).filter(has_edge).list()
 }
 
 /// Triangles between the corners, by their indices.
@@ -155,7 +169,12 @@ mod tests {
     fn convex_polygons_are_one_part() {
         let square = points(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
         assert_eq!(convex_parts(&square).len(), 1);
-        assert_eq!(convex_corners(&square).len(), 4);
+        let (centres, radius) = convex_corners(&square);
+        assert_eq!(centres.len(), 4);
+        assert!(centres.iter().all(|s| {
+            let off = f64::min(s.x.min(1.0 - s.x), s.y.min(1.0 - s.y));
+            (off - radius).abs() < 1e-15
+        }));
     }
 
     #[test]
@@ -167,12 +186,15 @@ mod tests {
         };
         let star = points(&(0..20).map(corner).list());
         let parts = convex_parts(&star);
-        let ours: f64 = parts.iter().map(|part| area(part)).sum();
+        let all: Vec<Vec<Local>> =
+            parts.iter().map(|part| part.iter().map(|(s, _)| *s).list()).list();
+        let ours: f64 = all.iter().map(|part| area(part)).sum();
+        assert_eq!(parts.iter().flatten().filter(|(_, own)| *own).count(), 20);
         let inner = points(&(0..10).map(|k| corner(2 * k + 1)).list());
         let left = area(&star) - ours;
         assert!(left.abs() < 1e-12 || (left - area(&inner)).abs() < 1e-12, "{left}");
-        assert_eq!(convex_corners(&star).len(), 10);
-        for part in parts {
+        assert_eq!(convex_corners(&star).0.len(), 10);
+        for part in all {
             assert!((0..part.len()).all(|k| {
                 let n = part.len();
                 turn(part[k], part[(k + 1) % n], part[(k + 2) % n]) >= -FLAT

@@ -11,10 +11,6 @@ use crate::math::{each, Listed, Local, Real};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// A point beyond the end of an edge by this fraction of the polygon counts as above the edge. Two corners that are
-/// stacked on each other up to rounding errors thus touch along the normal of an edge.
-const SLACK: f64 = 1e-11;
-
 /// An edge of a polygon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Edge {
@@ -26,6 +22,8 @@ struct Edge {
     start: f64,
     /// The angle by which the edges before it turn.
     turn: f64,
+    /// The chain of edges to which it belongs; None for a diagonal of a larger polygon, which no body touches.
+    chain: Option<usize>,
 }
 
 impl Edge {
@@ -71,15 +69,28 @@ fn constant<S: Real>(s: Local) -> Local<S> {
 impl Polygon {
     /// The polygon with these corners.
     pub fn new(corners: &[Local]) -> Self {
+        Self::part(&corners.iter().map(|s| (*s, true)).list())
+    }
+
+    /// The part of a polygon with these corners; the edge after each of them may be touched or not.
+    pub fn part(corners: &[(Local, bool)]) -> Self {
         let count = corners.len();
+        // the chain of the first edge may begin before it
+        let first = (0..count).find(|k| !corners[*k].1).map_or(0, |k| k + 1);
+        let mut chains = vec![None; count];
+        let mut chain = 0;
+        for k in (0..count).map(|k| (k + first) % count) {
+            chain += usize::from(!corners[k].1);
+            chains[k] = corners[k].1.then_some(chain);
+        }
         let (mut start, mut turn, mut before) = (0.0, 0.0, None::<Local>);
         let edge = |k: usize| {
-            let from = corners[k];
-            let way = corners[(k + 1) % count] - from;
+            let from = corners[k].0;
+            let way = corners[(k + 1) % count].0 - from;
             let length = way.norm();
             let along = way.scale(1.0 / length);
             turn += before.map_or(0.0, |last| last.cross(along).atan2(last.dot(along)));
-            let edge = Edge { from, along, length, start, turn };
+            let edge = Edge { from, along, length, start, turn, chain: chains[k] };
             (start, before) = (start + length, Some(along));
             edge
         };
@@ -114,27 +125,31 @@ impl Polygon {
 
     /// The edge or corner nearest to p, for a convex polygon.
     fn feature(&self, p: Local) -> Feature {
-        let slack = SLACK * self.length();
-        let (mut highest, mut nearest) =
-            ((f64::NEG_INFINITY, 0), (f64::INFINITY, Feature::Edge(0)));
-        for (k, edge) in self.edges.iter().enumerate() {
-            let [u, up] = edge.of(p);
-            if up > highest.0 {
-                highest = (up, k);
-            }
-            let beyond = f64::max(-u, u - edge.length);
-            let (distance, feature) = match beyond > slack {
-                true if u < 0.0 => (up.hypot(beyond), Feature::Corner(k)),
-                true => (up.hypot(beyond), Feature::Corner((k + 1) % self.edges.len())),
-                false => (up, Feature::Edge(k)),
-            };
-            if up > 0.0 && distance < nearest.0 {
-                nearest = (distance, feature);
-            }
+        let highest = |all: &dyn Fn(&Edge) -> bool| {
+            let heights = self.edges.iter().enumerate().filter(|(_, edge)| all(edge));
+            heights.map(|(k, edge)| (edge.of(p)[1], k)).max_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        if highest(&|_| true).is_some_and(|(up, _)| up <= 0.0) {
+            return Feature::Edge(highest(&|edge| edge.chain.is_some()).map_or(0, |(_, k)| k));
         }
-        match highest.0 > 0.0 {
-            true => nearest.1,
-            false => Feature::Edge(highest.1),
+        let own = (0..self.edges.len()).filter(|k| self.edges[*k].chain.is_some());
+        let nearest = own.map(|k| self.from_edge(k, p)).min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.map_or(Feature::Edge(0), |(_, feature)| feature)
+    }
+
+    /// The distance of p from an edge or, if p is not above the edge, from one of its ends.
+    fn from_edge(&self, k: usize, p: Local) -> (f64, Feature) {
+        let edge = &self.edges[k];
+        let [u, up] = edge.of(p);
+        let end = match u < 0.5 * edge.length {
+            true => (u.hypot(up), Feature::Corner(k)),
+            false => ((u - edge.length).hypot(up), Feature::Corner((k + 1) % self.edges.len())),
+        };
+        let above = up > 0.0 && u >= 0.0 && u <= edge.length;
+        if above {
+            (up, Feature::Edge(k))
+        } else {
+            end
         }
     }
 
@@ -202,7 +217,8 @@ impl Polygon {
     pub(super) fn apart(&self, p: Local, way: Way) -> Apart {
         let (near, within) = (self.foot(p).near, way.within);
         let Near { distance, away, .. } = near;
-        let flat = match self.feature(p) {
+        let feature = self.feature(p);
+        let flat = match feature {
             Feature::Corner(_) => false,
             Feature::Edge(k) => {
                 let [u, up] = self.edges[k].of(p);
@@ -214,6 +230,19 @@ impl Polygon {
             }
         };
         let bend = if flat { 0.0 } else { from_corner(distance, within) };
-        Apart { distance, away, bend, error: 0.0, other: f64::INFINITY }
+        // the distance from the chain of the nearest edge has a continuous gradient, but for another end of the chain
+        let beside = |k: usize| match feature {
+            Feature::Edge(own) => self.edges[k].chain == self.edges[own].chain,
+            Feature::Corner(own) => {
+                let [edge, last] = [self.edges[own].chain, self.before(own).chain];
+                let adjacent = k == own || (k + 1) % self.edges.len() == own;
+                adjacent || edge == last && self.edges[k].chain == edge
+            }
+        };
+        let own = (0..self.edges.len()).filter(|k| self.edges[*k].chain.is_some());
+        let others = own.filter(|k| !beside(*k)).map(|k| self.from_edge(k, p).0 - within);
+        let other = others.fold(f64::INFINITY, f64::min);
+        let other = if other > distance.abs() + within { f64::INFINITY } else { other };
+        Apart { distance, away, bend, error: 0.0, other }
     }
 }

@@ -1,7 +1,9 @@
-//! The actions of force elements as they are reported: with torques about the places at which the forces act.
+//! The actions of force elements as they are reported: with torques about the places at which the forces act, with
+//! their results and powers, and with all parts of a force together.
 
-use super::forces::{at_state, each_closer, each_wrench, reported, Acting};
+use super::forces::{at_state, each_wrench, potential, reported, threshold, Acting};
 use super::kinematics::Motions;
+use super::powers::Powers;
 use crate::elements::BodyId;
 use crate::math::{Real, Vec2, Wrench};
 use crate::model::Model;
@@ -68,4 +70,97 @@ fn arms<S: Real>(
         }
     });
     found
+}
+
+/// The results of force `k` in addition to its wrenches, in `out`. Of several parts, forces add up; the other results
+/// are those of the part with the least threshold.
+#[inline]
+pub fn results<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+    out: &mut [S],
+) {
+    results_of_part(model, k, motions, acting, out);
+    if model.forces[k].further.is_empty() {
+        return;
+    }
+    let mut own = vec![S::zero(); out.len()];
+    each_closer(model, k, motions, acting, |part, closer| {
+        let Some(closer) = closer else { return };
+        results_of_part(model, part, motions, acting, &mut own);
+        let quantities = model.forces[k].element.result_quantities();
+        for ((to, own), of) in out.iter_mut().zip(&own).zip(quantities) {
+            *to = if of.unit == "N" { *to + *own } else { S::select(closer, *own, *to) };
+        }
+    });
+}
+
+/// Calls `visit` for each part of force `k`. The second argument is positive where the threshold of a further part is
+/// less than those of the parts before it.
+fn each_closer<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+    mut visit: impl FnMut(usize, Option<S>),
+) {
+    visit(k, None);
+    let parts = model.forces[k].further.clone();
+    if parts.is_empty() {
+        return;
+    }
+    let mut least = threshold(model, k, motions, acting);
+    for part in parts {
+        let own = threshold(model, part, motions, acting);
+        visit(part, Some(least - own));
+        least = S::select(least - own, own, least);
+    }
+}
+
+/// The results of one part of a force. The friction of a contact gives the last of them.
+#[inline]
+fn results_of_part<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+    out: &mut [S],
+) {
+    for k in model.with_companion(k) {
+        let element = at_state(model, &model.forces[k], motions, acting);
+        let first = out.len() - element.result_quantities().len();
+        element.results(&reported(model, k, motions, acting), &mut out[first..]);
+    }
+}
+
+/// Potential energy of force `k` with its further parts, J.
+pub fn stored<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+) -> S {
+    let of = |part| potential(model, part, motions, acting);
+    model.parts(k).fold(S::zero(), |sum, part| sum + of(part))
+}
+
+/// Power that force `k` dissipates, W, with its further parts and the friction of a contact.
+pub fn dissipated<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+) -> S {
+    let mut powers = Powers::zero();
+    for k in model.whole(k) {
+        let element = at_state(model, &model.forces[k], motions, acting);
+        let at = reported(model, k, motions, acting);
+        element.action(&at, &mut |part: usize, body: usize, w: Wrench<S>| {
+            powers.add(element.parts()[part].nature, || w.power(at.body(body).twist));
+        });
+        powers.add_own(element.own_powers(&at));
+    }
+    powers.dissipated
 }

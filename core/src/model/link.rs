@@ -26,6 +26,8 @@ pub(super) struct Pairing {
     pub side: Side,
     /// The radius of a circle; None for the written radius.
     pub radius: Option<Tape>,
+    /// Added to the written radius.
+    pub rounding: f64,
 }
 
 /// Reads the fields of one element.

@@ -80,7 +80,9 @@ fn of_point(fields: &[Field], linker: &mut Linker<'_>) -> Option<Vec<Pairing>> {
         curve,
         side: Side::Right,
         radius: None,
+        rounding: 0.0,
     };
+    soft_corners(fields, linker)?;
     Some(parts.into_iter().map(of).list())
 }
 
@@ -135,6 +137,10 @@ fn of_curves(fields: &[Field], linker: &mut Linker<'_>) -> Option<Vec<Pairing>> 
         let message = "a circle has its own radius; remove it".to_string();
         return linker.report(field(fields, "radius"), message, None);
     }
+    let polygon = |of: &Pairing| matches!(of.curve.curve, Curve::Polygon(_));
+    if pairings.iter().any(|of| of.radius.is_none() && polygon(of)) {
+        soft_corners(fields, linker)?;
+    }
     if pairings.len() > MOST {
         let message = format!(
             "the corners of '{i}' and '{j}' have {} possible contacts; at most {MOST} are allowed",
@@ -145,6 +151,18 @@ fn of_curves(fields: &[Field], linker: &mut Linker<'_>) -> Option<Vec<Pairing>> 
         return linker.report(curves, message, Some(hint.to_string()));
     }
     Some(pairings)
+}
+
+/// Refuses a compliant contact of sharp corners, in which the force would jump from one edge to another.
+fn soft_corners(fields: &[Field], linker: &mut Linker<'_>) -> Option<()> {
+    let given = |name: &str| linker.entry.get(name).is_some();
+    if given("radius") || !given("stiffness") {
+        return Some(());
+    }
+    let message =
+        "a corner that presses into a polygon needs a radius larger than its depth".to_string();
+    let hint = "give radius, or restitution in place of stiffness";
+    linker.report(field(fields, "radius"), message, Some(hint.to_string()))
 }
 
 /// The two texts of a field.
@@ -162,7 +180,7 @@ enum TouchForm {
     /// A circle that is touched from outside.
     Disc { center: PointOn<Tape>, radius: Tape },
     /// A polygon or line.
-    Edged { corners: Vec<PointOn<Tape>>, parts: Vec<CurveOn<Tape>> },
+    Edged { corners: Vec<PointOn<Tape>>, rounding: f64, parts: Vec<CurveOn<Tape>> },
     /// A circle that is touched from inside.
     Hollow,
     /// Any other curve.
@@ -179,17 +197,20 @@ impl TouchForm {
             }
             Curve::Circle { .. } => Self::Hollow,
             Curve::Line { from, to } => {
-                Self::Edged { corners: vec![point(from), point(to)], parts: vec![on.clone()] }
+                let corners = vec![point(from), point(to)];
+                Self::Edged { corners, rounding: 0.0, parts: vec![on.clone()] }
             }
             Curve::Polygon(own) => {
                 let all = own.corners();
                 let at = |s: Local| Local { x: Tape::from(s.x), y: Tape::from(s.y) };
-                let part = |corners: Vec<Local>| CurveOn {
+                let part = |corners: Vec<(Local, bool)>| CurveOn {
                     body,
-                    curve: Curve::Polygon(Polygon::new(&corners)),
+                    curve: Curve::Polygon(Polygon::part(&corners)),
                 };
+                let (centres, rounding) = convex_corners(&all);
                 Self::Edged {
-                    corners: convex_corners(&all).into_iter().map(|s| point(&at(s))).list(),
+                    corners: centres.into_iter().map(|s| point(&at(s))).list(),
+                    rounding,
                     parts: convex_parts(&all).into_iter().map(part).list(),
                 }
             }
@@ -200,35 +221,42 @@ impl TouchForm {
 
 /// All pairings in which two curves may touch. None if the curves are refused.
 fn pairings(both: [&CurveOn<Tape>; 2], sides: [Side; 2]) -> Option<Vec<Pairing>> {
-    let one = |point: &PointOn<Tape>, curve: &CurveOn<Tape>, side: Side, radius: Option<&Tape>| {
-        Pairing { point: point.clone(), curve: curve.clone(), side, radius: radius.cloned() }
-    };
-    let corners_on = |corners: &[PointOn<Tape>], parts: &[CurveOn<Tape>], side: Side| {
-        let of = |part| corners.iter().map(move |corner| (corner, part));
-        parts.iter().flat_map(of).map(|(corner, part)| one(corner, part, side, None)).list()
-    };
-    let disc_on = |center: &PointOn<Tape>, radius: &Tape, other: &TouchForm, k: usize| match other {
-        TouchForm::Edged { parts, .. } => {
-            parts.iter().map(|part| one(center, part, sides[k], Some(radius))).list()
+    let circle_on = |(center, radius): (&PointOn<Tape>, &Tape), other: &TouchForm, k: usize| {
+        let one = |curve: &CurveOn<Tape>| Pairing {
+            point: center.clone(),
+            curve: curve.clone(),
+            side: sides[k],
+            radius: Some(radius.clone()),
+            rounding: 0.0,
+        };
+        match other {
+            TouchForm::Edged { parts, .. } => parts.iter().map(one).list(),
+            _ => vec![one(both[k])],
         }
-        _ => vec![one(center, both[k], sides[k], Some(radius))],
+    };
+    let corners_on = |form: &TouchForm, parts: &[CurveOn<Tape>], k: usize| {
+        let TouchForm::Edged { corners, rounding, .. } = form else { return Vec::new() };
+        let one = |(curve, point): (&CurveOn<Tape>, &PointOn<Tape>)| Pairing {
+            point: point.clone(),
+            curve: curve.clone(),
+            side: sides[k],
+            radius: None,
+            rounding: *rounding,
+        };
+        parts.iter().flat_map(|part| corners.iter().map(move |of| (part, of))).map(one).list()
     };
     let forms = [TouchForm::of(both[0], sides[0]), TouchForm::of(both[1], sides[1])];
-    Some(match &forms {
-        [TouchForm::Disc { center, radius }, other] => disc_on(center, radius, other, 1),
-        [other, TouchForm::Disc { center, radius }] => disc_on(center, radius, other, 0),
-        [TouchForm::Edged { corners, parts }, TouchForm::Edged { corners: of_j, parts: parts_j }] =>
-        {
-            let mut found: Vec<Pairing> = corners_on(corners, parts_j, sides[1]);
-            found.extend::<Vec<Pairing>>(corners_on(of_j, parts, sides[0]));
+    let [i, j] = &forms;
+    Some(match [i, j] {
+        [TouchForm::Disc { center, radius }, other] => circle_on((center, radius), other, 1),
+        [other, TouchForm::Disc { center, radius }] => circle_on((center, radius), other, 0),
+        [TouchForm::Edged { parts, .. }, TouchForm::Edged { parts: of_j, .. }] => {
+            let mut found: Vec<Pairing> = corners_on(i, of_j, 1);
+            found.extend::<Vec<Pairing>>(corners_on(j, parts, 0));
             found
         }
-        [TouchForm::Edged { corners, .. }, TouchForm::Hollow] => {
-            corners_on(corners, &[both[1].clone()], sides[1])
-        }
-        [TouchForm::Hollow, TouchForm::Edged { corners, .. }] => {
-            corners_on(corners, &[both[0].clone()], sides[0])
-        }
+        [TouchForm::Edged { .. }, TouchForm::Hollow] => corners_on(i, &[both[1].clone()], 1),
+        [TouchForm::Hollow, TouchForm::Edged { .. }] => corners_on(j, &[both[0].clone()], 0),
         _ => return None,
     })
 }

@@ -118,9 +118,9 @@ impl Source for Linker<'_> {
     }
 
     fn number(&mut self, field: &Field) -> Option<Tape> {
-        let radius = self.pairing.as_ref().and_then(|of| of.radius.clone());
-        if let Some(radius) = radius.filter(|_| field.name == "radius") {
-            return Some(radius);
+        if let Some(of) = self.pairing.clone().filter(|_| field.name == "radius") {
+            let written = self.formula(field, Reach::Parameters);
+            return of.radius.or(written.map(|radius| radius.plus(of.rounding)));
         }
         self.formula(field, Reach::Parameters)
     }

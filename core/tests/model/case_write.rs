@@ -137,6 +137,9 @@ impl Dice {
             Shape::Names => {
                 Value::List(vec![Value::Text(self.name(used)), Value::Text(self.name(used))])
             }
+            Shape::TwoTexts => {
+                Value::List(vec![Value::Text(self.text()), Value::Text(self.text())])
+            }
             Shape::Numbers => {
                 Value::List((0..self.roll(5)).map(|_| Value::Number(self.number())).collect())
             }
