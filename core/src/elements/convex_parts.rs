@@ -16,7 +16,7 @@ fn turn(a: Local, b: Local, c: Local) -> f64 {
 
 /// Radius of the circle that takes the place of a corner, relative to the circumference. With it, two corners on each
 /// other, as those of equal blocks, touch along the normal of an edge.
-pub const CORNER: f64 = 1e-10;
+pub const CORNER: f64 = 1e-11;
 
 /// The corners at which the material of a polygon has an angle of less than π: the centres of small circles that touch
 /// both edges from inside, and their radius.

@@ -48,6 +48,28 @@ impl<S> Rim<S> {
     }
 }
 
+impl Rim<Tape> {
+    /// The curve on which a body rests, see [`CurveTouch::side`](super::touch::CurveTouch::side).
+    pub fn supporting(&self, side: f64) -> Self {
+        match (&self.on.curve, support_of(side)) {
+            (Curve::Polygon(own), Some(support)) => {
+                Rim::new(CurveOn { body: self.on.body, curve: own.supporting(support) })
+            }
+            _ => self.clone(),
+        }
+    }
+}
+
+/// The side at which a body rests on an edge or corner of a polygon with this index.
+pub(super) fn side_of(support: usize) -> f64 {
+    -2.0 - support as f64
+}
+
+/// The index of an edge or corner of a polygon, if a side is one.
+pub(super) fn support_of(side: f64) -> Option<usize> {
+    (side <= -2.0).then(|| (-2.0 - side) as usize)
+}
+
 /// A curve of a contact.
 #[allow(non_camel_case_types)] // a type in `element!`, written like a word
 #[derive(Clone, Copy, Debug)]

@@ -317,11 +317,20 @@ pub trait Force: Element {
         false
     }
 
-    /// The side at which a contact or stop touches: -1 for a lower limit, +1 for an upper limit.
+    /// The side at which a contact or stop touches: -1 for a lower limit, +1 for an upper limit, other negative numbers
+    /// for the parts of a curve with corners.
     #[inline]
     fn side<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> f64 {
         let _ = (e, at);
         -1.0
+    }
+
+    /// How far the force is from the end of the range in which its equation holds it, without unit and positive within
+    /// the range. None if there is no end.
+    #[inline]
+    fn margin<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> Option<S> {
+        let _ = (e, at);
+        None
     }
 
     /// The equation with which the force [holds](Mode::holds). Friction holds its coordinate at `value`. A stop holds

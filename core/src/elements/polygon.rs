@@ -7,9 +7,21 @@
 use super::apart::{from_corner, Apart, Way};
 use super::convex_parts;
 use super::foot::{choose, Near};
+use super::plane_curve::Curve;
+use crate::expression::Tape;
 use crate::math::{each, Listed, Local, Real};
 use std::f64::consts::TAU;
 use std::sync::Arc;
+
+/// A body that rests on an edge or corner leaves it at this distance beyond its end, relative to the circumference. Then
+/// the nearest point is certainly on what follows.
+const BEYOND: f64 = 4e-12;
+
+/// The distance that is added between two sharp corners, relative to the circumference.
+const SHARP: f64 = 1e-8;
+
+/// The length of the line that supports an edge, in circumferences, on either side.
+const SUPPORT: f64 = 10.0;
 
 /// An edge of a polygon.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +63,9 @@ enum Feature {
 #[derive(Clone, Debug)]
 pub struct Polygon {
     edges: Arc<[Edge]>,
+    /// Added to the distance from a corner. Between two sharp corners, it is positive, because two corners that pass each
+    /// other touch along an edge before and after.
+    apart: f64,
 }
 
 /// The nearest point of a polygon.
@@ -94,7 +109,12 @@ impl Polygon {
             (start, before) = (start + length, Some(along));
             edge
         };
-        Self { edges: (0..count).map(edge).list().into() }
+        Self { edges: (0..count).map(edge).list().into(), apart: 0.0 }
+    }
+
+    /// The same polygon, whose corners other sharp corners do not touch.
+    pub fn sharp(self) -> Self {
+        Self { apart: SHARP * self.length(), ..self }
     }
 
     /// Its corners.
@@ -153,6 +173,12 @@ impl Polygon {
         }
     }
 
+    /// The point of a support that is nearest to p.
+    pub(super) fn foot_on_support<S: Real>(&self, support: usize, p: Local<S>) -> PolygonFoot<S> {
+        let corner = support.checked_sub(self.edges.len());
+        self.foot_on(corner.map_or(Feature::Edge(support), Feature::Corner), p)
+    }
+
     /// The point nearest to p, for a convex polygon.
     pub(super) fn foot<S: Real>(&self, p: Local<S>) -> PolygonFoot<S> {
         let (x, y) = (p.x.in_lanes(), p.y.in_lanes());
@@ -195,7 +221,7 @@ impl Polygon {
                 let away = arm.scale(S::one() / distance);
                 let turned = normal.cross(away).atan2(normal.dot(away));
                 PolygonFoot {
-                    near: Near { distance, away, place },
+                    near: Near { distance: distance + of(self.apart), away, place },
                     level: S::zero(),
                     along: [of(last.start + last.length), of(last.turn) + turned],
                 }
@@ -206,6 +232,43 @@ impl Polygon {
     /// The edge before an edge.
     fn before(&self, k: usize) -> &Edge {
         &self.edges[(k + self.edges.len() - 1) % self.edges.len()]
+    }
+
+    /// The index of the edge or corner nearest to p.
+    pub(super) fn support(&self, p: Local) -> usize {
+        match self.feature(p) {
+            Feature::Edge(k) => k,
+            Feature::Corner(k) => self.edges.len() + k,
+        }
+    }
+
+    /// The curve on which a body rests: the line of an edge, or a corner as a circle without radius.
+    pub(super) fn supporting(&self, support: usize) -> Curve<Tape> {
+        let tapes = |s: Local| Local { x: Tape::from(s.x), y: Tape::from(s.y) };
+        let Some(edge) = self.edges.get(support) else {
+            let center = tapes(self.edges[support - self.edges.len()].from);
+            return Curve::Circle { center, radius: Tape::from(0.0) };
+        };
+        let way = edge.along.scale(SUPPORT * self.length());
+        Curve::Line { from: tapes(edge.from - way), to: tapes(edge.from + way) }
+    }
+
+    /// How far p is from where a support ends, relative to the circumference.
+    pub(super) fn margin<S: Real>(&self, support: usize, p: Local<S>) -> S {
+        let of = S::constant;
+        let left = match self.edges.get(support) {
+            Some(edge) => {
+                let u = constant::<S>(edge.along).dot(p - constant(edge.from));
+                u.min(of(edge.length) - u)
+            }
+            None => {
+                let k = support - self.edges.len();
+                let arm = p - constant(self.edges[k].from);
+                let [last, next] = [self.before(k), &self.edges[k]].map(|e| constant::<S>(e.along));
+                last.dot(arm).min(-next.dot(arm))
+            }
+        };
+        left / of(self.length()) + of(BEYOND)
     }
 
     /// The length rolled by a circle once around a convex polygon.

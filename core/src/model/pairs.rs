@@ -124,7 +124,8 @@ fn of_curves(fields: &[Field], linker: &mut Linker<'_>) -> Option<Vec<Pairing>> 
             return linker.report(sides, INSIDE.to_string(), None);
         }
     }
-    let Some(pairings) = pairings([&both[0], &both[1]], sides_of) else {
+    let sharp = matches!(linker.entry.get("radius"), None | Some(Value::Number(0.0)));
+    let Some(pairings) = pairings([&both[0], &both[1]], sides_of, sharp) else {
         let message = format!(
             "no contact of '{i}' with '{j}': of two curves, one must be a circle that is touched from outside, or \
              both must be polygons, lines or circles, one of them touched from inside at most"
@@ -220,7 +221,14 @@ impl TouchForm {
 }
 
 /// All pairings in which two curves may touch. None if the curves are refused.
-fn pairings(both: [&CurveOn<Tape>; 2], sides: [Side; 2]) -> Option<Vec<Pairing>> {
+fn pairings(both: [&CurveOn<Tape>; 2], sides: [Side; 2], sharp: bool) -> Option<Vec<Pairing>> {
+    // a sharp corner does not touch another one
+    let blunt = |on: &CurveOn<Tape>| match &on.curve {
+        Curve::Polygon(own) => {
+            CurveOn { body: on.body, curve: Curve::Polygon(own.clone().sharp()) }
+        }
+        _ => on.clone(),
+    };
     let circle_on = |(center, radius): (&PointOn<Tape>, &Tape), other: &TouchForm, k: usize| {
         let one = |curve: &CurveOn<Tape>| Pairing {
             point: center.clone(),
@@ -238,7 +246,7 @@ fn pairings(both: [&CurveOn<Tape>; 2], sides: [Side; 2]) -> Option<Vec<Pairing>>
         let TouchForm::Edged { corners, rounding, .. } = form else { return Vec::new() };
         let one = |(curve, point): (&CurveOn<Tape>, &PointOn<Tape>)| Pairing {
             point: point.clone(),
-            curve: curve.clone(),
+            curve: if sharp { blunt(curve) } else { curve.clone() },
             side: sides[k],
             radius: None,
             rounding: *rounding,

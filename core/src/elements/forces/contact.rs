@@ -256,8 +256,16 @@ impl Force for Contact {
         vec![Clearance::Curve { i: &e.i, curve: &e.curve, side: e.side, radius: e.radius }]
     }
 
-    fn holding(e: &Contact<Tape>, _: f64, _: f64) -> Option<Constraint<Tape>> {
-        let (i, curve, radius) = (e.i.clone(), e.curve.clone(), e.radius.clone());
+    fn side<S: Real>(e: &Contact<S>, at: &Situation<'_, S>) -> f64 {
+        e.touch().side(at)
+    }
+
+    fn margin<S: Real>(e: &Contact<S>, at: &Situation<'_, S>) -> Option<S> {
+        e.touch().margin(at)
+    }
+
+    fn holding(e: &Contact<Tape>, side: f64, _: f64) -> Option<Constraint<Tape>> {
+        let (i, curve, radius) = (e.i.clone(), e.curve.supporting(side), e.radius.clone());
         Some(Constraint::Resting(Resting { i, curve, radius, side: e.side }))
     }
 
