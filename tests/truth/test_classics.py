@@ -228,7 +228,7 @@ def test_gripper() -> None:
 
 
 def test_ratchet() -> None:
-    """The motor lets go at 75 degrees, and the wheel falls back to the tooth at 60 degrees."""
+    """The motor is released at 75 degrees, and the wheel falls back to the tooth at 60 degrees."""
     run = motion("ratchet")
     released = run.events["motor.release"].t
     assert_allclose(released, np.radians(75) / 0.8, rtol=1e-9)

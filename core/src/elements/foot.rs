@@ -11,6 +11,7 @@
 use super::apart::{from_corner, Apart, Way};
 use super::field::{Default, Field, Shape};
 use super::kinds::{self, CurveOn, Kind, Side, Source};
+use super::near::{choose, Near};
 use super::nearest::{AlongCurve, CurveSearch};
 use super::plane_curve::Curve;
 use crate::expression::Tape;
@@ -102,17 +103,6 @@ impl Kind for rim_or_curves {
     fn map<S, T>(value: &Rim<S>, f: &mut dyn FnMut(&S) -> T) -> Rim<T> {
         rim::map(value, f)
     }
-}
-
-/// The nearest point of a curve, in the frame of the curve.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Near<S> {
-    /// The distance, > 0 on the side of the contact.
-    pub distance: S,
-    /// The gradient of the distance, a unit vector away from the body of the curve.
-    pub away: Local<S>,
-    /// The nearest point.
-    pub place: Local<S>,
 }
 
 impl Rim {
@@ -316,16 +306,6 @@ fn beyond<S: Real>(end: Local<S>, on: Local<S>, normal: Local<S>, arm: Local<S>)
     let corner = Near { distance, away, place: end };
     let behind = Near { distance: along, away: on, place: end + normal.scale(up) };
     choose(up, corner, behind)
-}
-
-pub(super) fn choose<S: Real>(condition: S, positive: Near<S>, otherwise: Near<S>) -> Near<S> {
-    let pick = |a: S, b: S| S::select(condition, a, b);
-    let both = |a: Local<S>, b: Local<S>| Local::new(pick(a.x, b.x), pick(a.y, b.y));
-    Near {
-        distance: pick(positive.distance, otherwise.distance),
-        away: both(positive.away, otherwise.away),
-        place: both(positive.place, otherwise.place),
-    }
 }
 
 fn of_circle<S: Real>(p: Local<S>, center: Local<S>, radius: S, out: S) -> Near<S> {

@@ -14,11 +14,12 @@
 //! equation s = constant of the positions, also for a compliant contact, in which d < r. In a rigid contact d = r, and
 //! the pitch point is C(u).
 
-use super::foot::{side_of, support_of, Near, Rim};
+use super::foot::{side_of, support_of, Rim};
 use super::force_trait::Situation;
 use super::hertz::Depth;
 use super::kinds::{PointOn, Side};
 use super::mode::Mode;
+use super::near::Near;
 use super::plane_curve::Curve;
 use crate::math::{Local, Pose, Real, Vec2, Wrench};
 

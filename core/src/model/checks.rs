@@ -68,13 +68,11 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
         if item.law.is_none() {
             element.map(&mut |x| check(&[section, &item.name], *x, problems));
         }
-        if let Some((field, message)) = element.fault() {
-            let problem = Problem::at(&[section, &item.name, field], message);
-            // the parts of a contact have the same fields
-            if !problems.contains(&problem) {
-                problems.push(problem);
-            }
-        }
+        let fault = element.fault();
+        let fault =
+            fault.map(|(field, message)| Problem::at(&[section, &item.name, field], message));
+        // the parts of a contact have the same fields
+        problems.extend(fault.filter(|fault| !problems.contains(fault)));
     }
 }
 

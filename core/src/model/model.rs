@@ -251,7 +251,7 @@ impl<S> Model<S> {
     pub fn parts(&self, k: usize) -> impl Iterator<Item = usize> {
         std::iter::once(k).chain(self.forces[k].further.clone())
     }
-    /// Force `k`, which is no further part, and its companion.
+    /// Force `k` and its companion, without further parts.
     pub fn with_companion(&self, k: usize) -> impl Iterator<Item = usize> {
         let item = &self.forces[k];
         std::iter::once(k).chain(item.partner.filter(|_| !item.is_companion))

@@ -103,27 +103,7 @@ fn of_curves(fields: &[Field], linker: &mut Linker<'_>) -> Option<Vec<Pairing>> 
         [Some(i), Some(j)] => [i, j],
         _ => return None,
     };
-    let sides_of = match linker.entry.get(OF_CURVES[1]) {
-        None => [Side::Right; 2],
-        Some(_) => {
-            let words = two_texts(sides, linker)?;
-            let of = |word: &str| match word {
-                "right" => Some(Side::Right),
-                "left" => Some(Side::Left),
-                _ => None,
-            };
-            let (Some(i), Some(j)) = (of(words[0]), of(words[1])) else {
-                let message = "each must be 'right' or 'left'".to_string();
-                return linker.report(sides, message, None);
-            };
-            [i, j]
-        }
-    };
-    for (on, side) in both.iter().zip(sides_of) {
-        if matches!((&on.curve, side), (Curve::Polygon(_), Side::Left)) {
-            return linker.report(sides, INSIDE.to_string(), None);
-        }
-    }
+    let sides_of = sides_of(sides, &both, linker)?;
     let sharp = matches!(linker.entry.get("radius"), None | Some(Value::Number(0.0)));
     let Some(pairings) = pairings([&both[0], &both[1]], sides_of, sharp) else {
         let message = format!(
@@ -152,6 +132,36 @@ fn of_curves(fields: &[Field], linker: &mut Linker<'_>) -> Option<Vec<Pairing>> 
         return linker.report(curves, message, Some(hint.to_string()));
     }
     Some(pairings)
+}
+
+/// The sides on which two curves touch.
+fn sides_of(
+    sides: &Field,
+    both: &[CurveOn<Tape>; 2],
+    linker: &mut Linker<'_>,
+) -> Option<[Side; 2]> {
+    let both_sides = match linker.entry.get(OF_CURVES[1]) {
+        None => [Side::Right; 2],
+        Some(_) => {
+            let words = two_texts(sides, linker)?;
+            let of = |word: &str| match word {
+                "right" => Some(Side::Right),
+                "left" => Some(Side::Left),
+                _ => None,
+            };
+            let (Some(i), Some(j)) = (of(words[0]), of(words[1])) else {
+                let message = "each must be 'right' or 'left'".to_string();
+                return linker.report(sides, message, None);
+            };
+            [i, j]
+        }
+    };
+    for (on, side) in both.iter().zip(both_sides) {
+        if matches!((&on.curve, side), (Curve::Polygon(_), Side::Left)) {
+            return linker.report(sides, INSIDE.to_string(), None);
+        }
+    }
+    Some(both_sides)
 }
 
 /// Refuses a compliant contact of sharp corners, in which the force would jump from one edge to another.

@@ -15,7 +15,7 @@ pub(super) enum QuantityOwner<S> {
     Point(PointOn<S>),
     Constraint(Constraint<S>),
     Force(ForceElement<S>),
-    /// The first of several parts of a force, whose quantities are no formulas.
+    /// The first of several parts of a force, whose quantities have no formulas.
     Several(ForceElement<S>),
     /// A joint with play.
     Play(Constraint<S>),

@@ -125,7 +125,9 @@ impl Dice {
             Shape::NameList => {
                 Value::List((0..self.roll(3)).map(|_| Value::Text(self.name(used))).collect())
             }
-            Shape::Quantities => Value::List(vec![Value::Text(self.text())]),
+            Shape::Quantities | Shape::TwoTexts => {
+                Value::List((0..2).map(|_| Value::Text(self.text())).collect())
+            }
             Shape::Events => self.events(used),
             Shape::Values => Value::Table(
                 (0..1 + self.roll(3)).map(|_| (self.name(used), self.formula())).collect(),
@@ -136,9 +138,6 @@ impl Dice {
             }
             Shape::Names => {
                 Value::List(vec![Value::Text(self.name(used)), Value::Text(self.name(used))])
-            }
-            Shape::TwoTexts => {
-                Value::List(vec![Value::Text(self.text()), Value::Text(self.text())])
             }
             Shape::Numbers => {
                 Value::List((0..self.roll(5)).map(|_| Value::Number(self.number())).collect())
