@@ -68,7 +68,7 @@ def ratchet(mass: float, size: float, load: float) -> kp.Model:
 
 @pytest.mark.parametrize(("mass", "size"), SCALES)
 def test_a_pawl_catches_a_tooth(mass: float, size: float) -> None:
-    """It rests in the root of a tooth, on both flanks: without friction, statics gives both forces."""
+    """It rests in the root of a tooth, on both flanks: statics gives both forces."""
     load = 0.5
     m = ratchet(mass, size, -load)
     start = kp.assemble(m, set={"wheel.angle": 0.2, "pawl.angle": -0.1})
