@@ -41,12 +41,11 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
                 .push(Problem::at(&["gravity", &k.to_string()], format!("{g}; must be finite")));
         }
     }
-    let parameters = &model.parameters;
     for item in &model.constraints {
         let section = item.group.section();
         let element = match &item.law {
             None => item.element.clone(),
-            Some(law) => law.map(&mut |tape| constant(tape, parameters)),
+            Some(law) => law.map(&mut |tape| constant(tape, &model.parameters)),
         };
         if item.law.is_none() {
             element.map(&mut |x| check(&[section, &item.name], *x, problems));
@@ -59,7 +58,7 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
         let section = if item.element.joint().is_some() { "joints" } else { "forces" };
         let element = match &item.law {
             None => item.element.clone(),
-            Some(law) => law.map(&mut |tape| constant(tape, parameters)),
+            Some(law) => law.map(&mut |tape| constant(tape, &model.parameters)),
         };
         if !element.in_files() {
             piece(beam_of(&item.name), &element, problems);

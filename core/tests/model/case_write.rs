@@ -108,10 +108,8 @@ impl Dice {
             Shape::Curves | Shape::Shapes | Shape::Outline | Shape::Corners => {
                 self.of_body(shape, used)
             }
-            Shape::Body | Shape::Point | Shape::Curve | Shape::Coordinate => {
-                Value::Text(self.text())
-            }
-            Shape::Joint | Shape::Name => Value::Text(self.text()),
+            Shape::Body | Shape::Point | Shape::Curve => Value::Text(self.text()),
+            Shape::Coordinate | Shape::Joint | Shape::Name => Value::Text(self.text()),
             Shape::Section => Value::Table(vec![("rectangle".to_string(), self.pair())]),
             Shape::Number | Shape::Law => self.formula(),
             Shape::Pair | Shape::LawPair => self.pair(),
