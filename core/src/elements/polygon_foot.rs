@@ -48,12 +48,12 @@ impl Polygon {
             return Feature::Edge(highest(&|edge| edge.chain.is_some()).map_or(0, |(_, k)| k));
         }
         let own = (0..self.edges.len()).filter(|k| self.edges[*k].chain.is_some());
-        let nearest = own.map(|k| self.from_edge(k, p)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let nearest = own.map(|k| self.off_edge(k, p)).min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.map_or(Feature::Edge(0), |(_, feature)| feature)
     }
 
     /// The distance of p from an edge or, if p is not above the edge, from one of its ends.
-    fn from_edge(&self, k: usize, p: Local) -> (f64, Feature) {
+    fn off_edge(&self, k: usize, p: Local) -> (f64, Feature) {
         let edge = &self.edges[k];
         let [u, up] = edge.of(p);
         let end = match u < 0.5 * edge.length {
@@ -198,7 +198,7 @@ impl Polygon {
             }
         };
         let own = (0..self.edges.len()).filter(|k| self.edges[*k].chain.is_some());
-        let others = own.filter(|k| !beside(*k)).map(|k| self.from_edge(k, p).0 - within);
+        let others = own.filter(|k| !beside(*k)).map(|k| self.off_edge(k, p).0 - within);
         let other = others.fold(f64::INFINITY, f64::min);
         let other = if other > distance.abs() + within { f64::INFINITY } else { other };
         Apart { distance, away, bend, error: 0.0, other }
