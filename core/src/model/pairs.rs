@@ -186,7 +186,8 @@ fn two_texts<'a>(field: &Field, linker: &mut Linker<'a>) -> Option<[&'a str; 2]>
     linker.report(field, "must be a list of two names".to_string(), None)
 }
 
-/// What a curve is for a contact.
+/// The form in which a curve takes part in a contact.
+#[allow(clippy::large_enum_variant)] // only two exist at a time
 enum TouchForm {
     /// A circle that is touched from outside.
     Disc { center: PointOn<Tape>, radius: Tape },
