@@ -39,6 +39,7 @@ TYPES = dict.fromkeys(REFERENCES, "str") | {
     "events": "Events",
     "name_list": "Words",
     "quantities": "Words",
+    "two_texts": "Words",
     "values": "Terms",
 }
 #: Laws of forces may be Python functions.
@@ -232,9 +233,11 @@ def method(table: dict[str, Any]) -> str:
     """The method of ``Model`` that adds one element."""
     name, fields = table["name"], table["fields"]
     # Optional fields are passed by name, so that two bodies cannot be confused.
-    positional = [f for f in fields if f["shape"] in REFERENCES and f["default"] is None]
+    # A reference that another form replaces keeps its place and may be absent.
+    may_lack = [None, {"absent": True}]
+    positional = [f for f in fields if f["shape"] in REFERENCES and f["default"] in may_lack]
     keyword = [f for f in fields if f not in positional]
-    arguments = [f"{f['name']}: str{default(f)}" for f in positional]
+    arguments = [f"{f['name']}: {annotated(f)}" for f in positional]
     arguments += ["*"] * bool(keyword)
     arguments += [f"{f['name']}: {annotated(f)}" for f in keyword]
     passed = [f"{f['name']}={f['name']}" for f in fields]

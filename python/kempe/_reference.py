@@ -48,6 +48,7 @@ The values of fields:
 | flag | `true` or `false` |
 | condition | a [condition](events.md) on quantities: `"crank.angle > 270*deg"` |
 | events | a table of [events](events.md), `{ hit = "rocker.angle > 270*deg" }` |
+| two_texts | two texts, `["cam.rim", "pawl.tip"]` |
 | name_list | a list of names, `["crank_drive"]` |
 | values | values of parameters, `{ k = 2e6 }` |
 """

@@ -117,4 +117,29 @@ def loose_pin(of: Units) -> Made:
     return Made(m, measures, start, end=2.0, changes=True)
 
 
-CONTACTS: list[Maker] = [touching, rolling_over, bouncing, loose_pin]
+def tumbling(of: Units) -> Made:
+    """A block with rounded corners presses into a tilted floor with friction."""
+    s, v = of.size, of.size * of.rate
+    weight = of.mass * v * of.rate
+    m = of.model(r=(0.1, s), k=(900, weight / s), c=(0.3, 1 / v), mu=(0.2, 1), rise=(0.3, s))
+    m.ground.curves(floor={"line": [["5*rise", "rise"], ["-5*rise", "-rise"]]})
+    corners = [(-0.4 * s, -0.2 * s), (0.4 * s, -0.2 * s), (0.3 * s, 0.2 * s), (-0.4 * s, 0.2 * s)]
+    rim = {"rim": {"polygon": corners}}
+    of.disc(m, "block", {"C": (0, 0)}, center=(0.03 * s, 0.01 * s), curves=rim)
+    m.contact(
+        "touch",
+        curves=["block.rim", "ground.floor"],
+        radius="r",
+        stiffness="k",
+        exponent=1,
+        damping="c",
+        friction="mu",
+    )
+    start = {"block.x": of.near(0.1) * s, "block.y": s, "block.vx": 0.5 * v, "block.angle": 0.3}
+    measures = ["block.x.final", "block.y.final", "block.omega.final"]
+    return Made(
+        m, [*measures, "energy.dissipated.final", "touch.gap.final"], start, end=2.0, changes=True
+    )
+
+
+CONTACTS: list[Maker] = [touching, rolling_over, bouncing, loose_pin, tumbling]

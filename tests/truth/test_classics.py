@@ -225,3 +225,27 @@ def test_gripper() -> None:
     assert run(2.0)["piston"].x == pytest.approx(-0.1, abs=3e-3)
     closed = 2 * at(run, "upper.T").imag[np.searchsorted(run.t, 1.0)]
     assert 0 < closed < 0.5
+
+
+def test_ratchet() -> None:
+    """The motor is released at 75 degrees, and the wheel falls back to the tooth at 60 degrees."""
+    run = motion("ratchet")
+    released = run.events["motor.release"].t
+    assert_allclose(released, np.radians(75) / 0.8, rtol=1e-9)
+    assert run["wheel.angle"].max() > np.radians(75)
+    assert_allclose(run["wheel.angle"][-1], np.radians(60), atol=1e-4)
+    assert_allclose(run["pawl.angle"][-1], 0, atol=1e-4)
+    # the torque of the pawl about the axle is that of the weight
+    force = run["catch"].force(on="wheel")[-1]
+    assert_allclose(-0.8 * force[0], 60, rtol=1e-3)
+
+
+def test_rocking_block() -> None:
+    """Housner: each blow keeps 1 - 1.5 sin^2 of the spin, with tan = 0.25."""
+    run = motion("rocking_block")
+    hits = run.events["touch.hit"]
+    before = np.array([state["block.omega"] for state in hits.states[:4]])
+    after = np.array([run(t)["block.omega"] for t in hits.t[:4]])
+    assert_allclose(after / before, 1 - 1.5 * np.sin(np.arctan(0.25)) ** 2, rtol=1e-4)
+    falls = np.diff(hits.t[:5])
+    assert (np.diff(falls) < 0).all()

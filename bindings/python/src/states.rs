@@ -218,7 +218,7 @@ impl PyStates {
             self.multipliers(py)?;
             self.each(py, 3, |_, motions, acting, out| {
                 let mode = Mode::Holds(forces::side(model, k, motions, acting));
-                let modes = model.with_companion(k).map(|k| ForceMode::new(k, mode));
+                let modes = model.whole(k).map(|k| ForceMode::new(k, mode));
                 let resting = model.marked(&modes.collect::<Vec<_>>());
                 let mut sum = Wrench::zero();
                 each_action(&resting, k, motions, acting, |_, at, wrench| {
@@ -307,7 +307,7 @@ impl PyStates {
             self.multipliers(py)?;
             let width = model.forces[k].element.result_quantities().len();
             self.each(py, width, |_, motions, acting, out| {
-                forces::results(model, k, motions, acting, out);
+                actions::results(model, k, motions, acting, out);
             })
         })
     }
@@ -317,8 +317,8 @@ impl PyStates {
         guard("States.force_energy", || {
             let (model, k) = (self.compiled(), force(py, self.compiled(), name)?);
             self.each(py, 2, |_, motions, acting, out| {
-                out[0] = forces::potential(model, k, motions, acting);
-                out[1] = forces::dissipated(model, k, motions, acting);
+                out[0] = actions::stored(model, k, motions, acting);
+                out[1] = actions::dissipated(model, k, motions, acting);
             })
         })
     }

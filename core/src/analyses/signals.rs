@@ -153,7 +153,7 @@ impl Signal {
             }
             Self::Measured { id, order: order @ (0 | 1), .. } => {
                 let of = |part: &StepPart<'_>| match id {
-                    ElementId::Force(k) if part.is_contact(*k) => part.gap(*k, None),
+                    ElementId::Force(k) if part.is_contact(*k) => part.gap(*k),
                     _ => formula.map(|of| part.followed(of)),
                 };
                 return if *order == 0 { of(part) } else { part.rate(of) };
@@ -199,14 +199,16 @@ impl Signal {
                     .fold(S::zero(), |all, x| if *sum { all + x } else { all.max(x) })
             }
             Self::ForcePower(k) => power(model, *k, seen),
-            Self::ForceEnergy(k) => forces::potential(model, *k, seen.motions, seen.acting()),
+            Self::ForceEnergy(k) => actions::stored(model, *k, seen.motions, seen.acting()),
             Self::Energy(of) => energy_of(model, *of, seen),
             Self::Drift { order } => drift(model, *order, seen),
             Self::ForceDissipated(k) => match seen.works.get(WORKS + k) {
                 Some(energy) => *energy,
                 None => of_run(seen, |so_far| so_far.of(*k)),
             },
-            Self::ForceDissipating(k) => forces::dissipated(model, *k, seen.motions, seen.acting()),
+            Self::ForceDissipating(k) => {
+                actions::dissipated(model, *k, seen.motions, seen.acting())
+            }
             Self::Balance => of_run(seen, SoFar::reaction_balance),
         }
     }
@@ -242,7 +244,7 @@ fn result<S: Real>(model: &Model<S>, k: usize, place: usize, seen: &Seen<'_, S>)
 
 fn force_result<S: Real>(model: &Model<S>, k: usize, place: usize, seen: &Seen<'_, S>) -> S {
     let mut out = vec![S::zero(); model.forces[k].element.result_quantities().len()];
-    forces::results(model, k, seen.motions, seen.acting(), &mut out);
+    actions::results(model, k, seen.motions, seen.acting(), &mut out);
     out[place]
 }
 
@@ -258,7 +260,7 @@ fn force_on_j<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> Wrench
 
 fn power<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> S {
     let mut sum = S::zero();
-    for k in model.with_companion(k) {
+    for k in model.whole(k) {
         forces::each_wrench(model, k, seen.motions, seen.acting(), |_, body, wrench| {
             sum += wrench.power(seen.motions[body.0].twist);
         });

@@ -9,7 +9,8 @@
 //! accurately.
 
 use super::balances::{Energies, EnergyBalance, ReactionBalance};
-use crate::equations::forces::{self, Acting};
+use crate::equations::actions;
+use crate::equations::forces::Acting;
 use crate::equations::kinematics::Motions;
 use crate::equations::newton_euler::Balances;
 use crate::math::Listed;
@@ -102,7 +103,7 @@ impl SoFar {
 
     /// The power that each element dissipates at a state, W.
     pub fn powers(&self, model: &Model, motions: &Motions, acting: Acting<'_, f64>) -> Vec<f64> {
-        let of = |(k, _): &(usize, f64)| forces::dissipated(model, *k, motions, acting);
+        let of = |(k, _): &(usize, f64)| actions::dissipated(model, *k, motions, acting);
         self.elements.iter().map(of).list()
     }
 

@@ -183,12 +183,18 @@ impl<'a> StepPart<'a> {
     }
 
     /// The distance of a force that begins or ends a contact, or the least of several. None if it is not known.
-    pub fn gap(&self, force: usize, place: Option<usize>) -> Option<Bounds> {
+    pub fn apart(&self, force: usize, place: Option<usize>) -> Option<Bounds> {
         let item = &self.model.forces[force];
         let all = item.element.clearances();
         let wanted = all.iter().enumerate().filter(|(k, _)| place.is_none_or(|place| *k == place));
         let bounds = wanted.map(|(_, of)| self.distance(of, item));
         bounds.reduce(|a, b| Some(a?.min(b?)))?
+    }
+
+    /// The least distance of all parts of a contact. None if it is not known.
+    pub fn gap(&self, force: usize) -> Option<Bounds> {
+        let all = self.model.parts(force).map(|part| self.apart(part, None));
+        all.reduce(|a, b| Some(a?.min(b?)))?
     }
 
     /// The function 1 + c δ̇ of a compliant contact, which is 1 where the bodies are apart.
@@ -198,11 +204,11 @@ impl<'a> StepPart<'a> {
         if damping == 0.0 {
             return Some(Bounds::one());
         }
-        let gap = self.gap(force, Some(place))?;
+        let gap = self.apart(force, Some(place))?;
         if gap.value.low > 0.0 {
             return Some(Bounds::one());
         }
-        let rate = self.rate(|part| part.gap(force, Some(place)))?;
+        let rate = self.rate(|part| part.apart(force, Some(place)))?;
         let factor = Bounds::one() - Bounds::constant(damping) * rate;
         Some(Bounds::select(-gap, factor, Bounds::one()))
     }

@@ -29,6 +29,7 @@ fn shape(shape: Shape) -> Value {
         Shape::LawPair => json!("law_pair"),
         Shape::Ranges => json!("ranges"),
         Shape::NameList => json!("name_list"),
+        Shape::TwoTexts => json!("two_texts"),
         plain => json!(format!("{plain:?}").to_lowercase()),
     }
 }

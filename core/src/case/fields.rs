@@ -5,8 +5,8 @@ use super::report::{among, ProblemList};
 use super::tree::{Data, Node, Table};
 use super::values::{
     corners, count, curves, names, number, numbers, outline, pair, plain_numbers, points,
-    quantities, ranges, section, terms, tolerance, triple, two_columns, two_names, units, word,
-    wrong, TERMS,
+    quantities, ranges, section, terms, tolerance, triple, two_columns, two_names, two_texts,
+    units, word, wrong, TERMS,
 };
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
@@ -113,6 +113,7 @@ pub(super) fn shape(report: &mut ProblemList, node: &Node, shape: Shape) {
         (Shape::Section, _) => section(report, node),
         (Shape::Corners, _) => corners(report, node),
         (Shape::Names, _) => two_names(report, node),
+        (Shape::TwoTexts, _) => two_texts(report, node),
         (Shape::Numbers, _) => plain_numbers(report, node),
         (Shape::Columns, _) => two_columns(report, node),
         (Shape::Count, _) => count(report, node),

@@ -219,6 +219,12 @@ fn property(f: &Field) -> Value {
         Shape::Units => json!({ "type": "array", "items": { "enum": UNITS_OF_EQUATIONS } }),
         Shape::Points => reference("points"),
         Shape::Names => reference("names"),
+        Shape::TwoTexts => json!({
+            "type": "array",
+            "items": { "type": "string" },
+            "minItems": 2,
+            "maxItems": 2,
+        }),
         Shape::Numbers => json!({ "type": "array", "items": { "type": "number" } }),
         Shape::Columns => json!({
             "type": "array",
@@ -264,6 +270,7 @@ fn curve() -> Value {
         "interpolation": { "enum": Interpolation::ALL.map(word), "description": "Of points; quintic if absent." },
         "circle": described(three, "Centre x, y and radius (m); u is the angle, counter-clockwise."),
         "line": described(line, "Both ends [x, y] (m); u is the length from the first."),
+        "polygon": described(points(3), "Corners [x, y] (m), counter-clockwise; for contacts; u is the length."),
     });
     let one = |form: &CurveForm| json!({ "required": form.keys });
     let forms: Vec<Value> = CURVE_FORMS.iter().map(one).list();

@@ -202,6 +202,17 @@ pub(super) fn two_names(report: &mut ProblemList, node: &Node) {
     }
 }
 
+/// Two texts, such as the names of curves.
+pub(super) fn two_texts(report: &mut ProblemList, node: &Node) {
+    let two = |items: &[Node]| {
+        items.len() == 2 && items.iter().all(|item| matches!(item.data, Data::Text(_)))
+    };
+    match &node.data {
+        Data::List(items) if two(items) => {}
+        _ => wrong(report, node, "a list of two texts [\"cam.rim\", \"pawl.tip\"]"),
+    }
+}
+
 /// A cross section of a beam.
 pub(super) fn section(report: &mut ProblemList, node: &Node) {
     let known = ["rectangle", "circle", "tube"];

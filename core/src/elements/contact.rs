@@ -64,6 +64,7 @@ impl Curve {
     /// Points along the curve for drawings.
     pub fn drawn(&self) -> Vec<Local> {
         let count = match self {
+            Self::Polygon(own) => return own.corners(),
             Self::Line { .. } => 1,
             Self::Points(own) => 8 * own.points.len().clamp(20, 200),
             Self::Formula(own) if own.breaks().is_some() => 720, // of pieces, some of which may be short
@@ -99,6 +100,7 @@ impl Curve {
             Self::Line { .. } if !(finite(&b) && b > 0.0) => {
                 Some(("line", "its ends are the same point".to_string()))
             }
+            Self::Polygon(own) => own.fault().map(|message| ("polygon", message)),
             Self::Points(own) => {
                 let count = own.points.len();
                 let pairs = (0..count).map(|k| (k, (k + 1) % count));
@@ -150,6 +152,10 @@ impl Curve {
 pub(super) fn cusp(curve: &Curve) -> Option<String> {
     if curve.fault().is_some() {
         return None; // it is reported at the curve
+    }
+    if let Curve::Polygon(_) = curve {
+        let message = "it is a polygon, which has corners; a contact takes it, a joint needs a curve without corners";
+        return Some(message.to_string());
     }
     if let Curve::Points(own) = curve {
         if own.kind == Interpolation::Linear && own.points.len() > 2 {

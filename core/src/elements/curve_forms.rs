@@ -18,4 +18,5 @@ pub const CURVE_FORMS: &[CurveForm] = &[
     CurveForm { keys: &["points"], more: &["periodic", "interpolation"], words: "points" },
     CurveForm { keys: &["circle"], more: &[], words: "circle" },
     CurveForm { keys: &["line"], more: &[], words: "line" },
+    CurveForm { keys: &["polygon"], more: &[], words: "polygon" },
 ];

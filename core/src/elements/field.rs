@@ -47,6 +47,8 @@ pub enum Shape {
     Points,
     /// Two names.
     Names,
+    /// Two texts.
+    TwoTexts,
     /// One name.
     Name,
     /// Any number of names.

@@ -9,8 +9,9 @@
 //! only beyond the ends.
 
 use super::apart::{from_corner, Apart, Way};
-use super::field::{Field, Shape};
+use super::field::{Default, Field, Shape};
 use super::kinds::{self, CurveOn, Kind, Side, Source};
+use super::near::{choose, Near};
 use super::nearest::{AlongCurve, CurveSearch};
 use super::plane_curve::Curve;
 use crate::expression::Tape;
@@ -37,10 +38,37 @@ impl<S> Rim<S> {
         Self { on, searches: OnceLock::new(), known: Arc::default() }
     }
 
-    /// Whether the nearest point has a closed form.
-    pub fn is_closed_form(&self) -> bool {
+    /// Whether the nearest point is a formula of the coordinates.
+    pub fn has_formulas(&self) -> bool {
         matches!(self.on.curve, Curve::Line { .. } | Curve::Circle { .. })
     }
+
+    /// Whether the nearest point has a closed form.
+    pub fn is_closed_form(&self) -> bool {
+        self.has_formulas() || matches!(self.on.curve, Curve::Polygon(_))
+    }
+}
+
+impl Rim<Tape> {
+    /// The curve on which a body rests, see [`CurveTouch::side`](super::touch::CurveTouch::side).
+    pub fn supporting(&self, side: f64) -> Self {
+        match (&self.on.curve, support_of(side)) {
+            (Curve::Polygon(own), Some(support)) => {
+                Rim::new(CurveOn { body: self.on.body, curve: own.supporting(support) })
+            }
+            _ => self.clone(),
+        }
+    }
+}
+
+/// The side at which a body rests on an edge or corner of a polygon with this index.
+pub(super) fn side_of(support: usize) -> f64 {
+    -2.0 - support as f64
+}
+
+/// The index of an edge or corner of a polygon, if a side is one.
+pub(super) fn support_of(side: f64) -> Option<usize> {
+    (side <= -2.0).then(|| (-2.0 - side) as usize)
 }
 
 /// A curve of a contact.
@@ -60,15 +88,21 @@ impl Kind for rim {
     }
 }
 
-/// The nearest point of a curve, in the frame of the curve.
+/// A curve of a contact that another form of the element replaces, so that the field may be absent.
+#[allow(non_camel_case_types)] // a type in `element!`, written like a word
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Near<S> {
-    /// The distance, > 0 on the side of the contact.
-    pub distance: S,
-    /// The gradient of the distance, a unit vector away from the body of the curve.
-    pub away: Local<S>,
-    /// The nearest point.
-    pub place: Local<S>,
+pub enum rim_or_curves {}
+
+impl Kind for rim_or_curves {
+    type Over<S> = Rim<S>;
+    const SHAPE: Shape = rim::SHAPE;
+    const DEFAULT: Option<Default> = Some(Default::Absent);
+    fn read(source: &mut dyn Source, field: &Field) -> Option<Rim<Tape>> {
+        rim::read(source, field)
+    }
+    fn map<S, T>(value: &Rim<S>, f: &mut dyn FnMut(&S) -> T) -> Rim<T> {
+        rim::map(value, f)
+    }
 }
 
 impl Rim {
@@ -99,6 +133,7 @@ impl Rim {
                 let flat = if distance > 0.0 { level } else { inside > up + within };
                 of(distance, away, if flat { 0.0 } else { from_corner(distance, within) })
             }
+            Curve::Polygon(own) => own.apart(p, way),
             curve => self.searched_apart(curve, p, side, (way, far)),
         }
     }
@@ -159,6 +194,7 @@ impl<S: Real> Rim<S> {
         match &self.on.curve {
             Curve::Circle { center, radius } => of_circle(p, *center, *radius, out),
             Curve::Line { from, to } => of_line(p, *from, *to, out),
+            Curve::Polygon(own) => own.foot(p).near,
             curve => self.searched(curve, p, out),
         }
     }
@@ -270,16 +306,6 @@ fn beyond<S: Real>(end: Local<S>, on: Local<S>, normal: Local<S>, arm: Local<S>)
     let corner = Near { distance, away, place: end };
     let behind = Near { distance: along, away: on, place: end + normal.scale(up) };
     choose(up, corner, behind)
-}
-
-fn choose<S: Real>(condition: S, positive: Near<S>, otherwise: Near<S>) -> Near<S> {
-    let pick = |a: S, b: S| S::select(condition, a, b);
-    let both = |a: Local<S>, b: Local<S>| Local::new(pick(a.x, b.x), pick(a.y, b.y));
-    Near {
-        distance: pick(positive.distance, otherwise.distance),
-        away: both(positive.away, otherwise.away),
-        place: both(positive.place, otherwise.place),
-    }
 }
 
 fn of_circle<S: Real>(p: Local<S>, center: Local<S>, radius: S, out: S) -> Near<S> {

@@ -223,12 +223,21 @@ macro_rules! forces {
             }
             /// The reserve while the force holds. It is positive until friction slips or a contact separates.
             pub fn reserve(&self, at: &Situation<'_, S>) -> S {
+                let reserve = self.reserve_of_force(at);
+                let margin = match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::margin(e, at),)+ };
+                match margin {
+                    // near the end of its range, the force may not hold
+                    Some(margin) => reserve.min(S::constant(1e3) * margin * reserve.abs()),
+                    None => reserve,
+                }
+            }
+            fn reserve_of_force(&self, at: &Situation<'_, S>) -> S {
                 match (at.mode, self.behaviour()) {
                     (Mode::Holds(_), Some(Behaviour::Sticks)) => {
                         let left = self.limit(at).0 - at.multiplier.abs();
                         if self.only_pushes() { left.min(-at.multiplier) } else { left }
                     }
-                    (Mode::Holds(side), _) => S::constant(side) * at.multiplier,
+                    (Mode::Holds(side), _) => S::constant(side.signum()) * at.multiplier,
                     _ => S::constant(f64::INFINITY),
                 }
             }

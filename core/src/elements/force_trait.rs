@@ -302,25 +302,27 @@ pub trait Force: Element {
         false
     }
 
-    /// The side at which a contact or stop touches: -1 for a lower limit, +1 for an upper limit.
+    /// The side at which it touches: -1 for a lower limit, +1 for an upper limit, below -1 for a part of a curve.
     #[inline]
-    fn side<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> f64 {
-        let _ = (e, at);
+    fn side<S: Real>(_: &Self::Over<S>, _: &Situation<'_, S>) -> f64 {
         -1.0
+    }
+
+    /// The distance from the end of the range in which its equation holds it, without unit. None without an end.
+    fn margin<S: Real>(_: &Self::Over<S>, _: &Situation<'_, S>) -> Option<S> {
+        None
     }
 
     /// The equation with which the force [holds](Mode::holds). Friction holds its coordinate at `value`. A stop holds
     /// its coordinate at the limit of the `side`, or at `value` for side 0. A contact holds its gap at zero.
     #[inline]
-    fn holding(e: &Self::Over<Tape>, side: f64, value: f64) -> Option<Constraint<Tape>> {
-        let _ = (e, side, value);
+    fn holding(_: &Self::Over<Tape>, _side: f64, _value: f64) -> Option<Constraint<Tape>> {
         None
     }
 
     /// A second element of the force, with the same name and with modes of its own: the friction of a contact.
     #[inline]
-    fn companion(e: &Self::Over<Tape>) -> Option<ForceElement<Tape>> {
-        let _ = e;
+    fn companion(_: &Self::Over<Tape>) -> Option<ForceElement<Tape>> {
         None
     }
 

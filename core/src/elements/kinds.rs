@@ -197,6 +197,38 @@ kind!(
     flag, Flag, S => bool, |v, _f| *v
 );
 
+/// A point of a body that another form of the element replaces, so that the field may be absent.
+#[allow(non_camel_case_types)] // a type in `element!`, written like a word
+#[derive(Clone, Copy, Debug)]
+pub enum point_or_curves {}
+
+impl Kind for point_or_curves {
+    type Over<S> = PointOn<S>;
+    const SHAPE: Shape = Shape::Point;
+    const DEFAULT: Option<Default> = Some(Default::Absent);
+    fn read(source: &mut dyn Source, field: &Field) -> Option<PointOn<Tape>> {
+        source.point(field)
+    }
+    fn map<S, T>(value: &PointOn<S>, f: &mut dyn FnMut(&S) -> T) -> PointOn<T> {
+        point::map(value, f)
+    }
+}
+
+/// Two texts that determine other fields of the element, and are read with them.
+#[allow(non_camel_case_types)] // a type in `element!`, written like a word
+#[derive(Clone, Copy, Debug)]
+pub enum two_texts {}
+
+impl Kind for two_texts {
+    type Over<S> = ();
+    const SHAPE: Shape = Shape::TwoTexts;
+    const DEFAULT: Option<Default> = Some(Default::Absent);
+    fn read(_: &mut dyn Source, _: &Field) -> Option<()> {
+        Some(())
+    }
+    fn map<S, T>(_: &(), _: &mut dyn FnMut(&S) -> T) {}
+}
+
 /// A field of kind `K` that may be omitted.
 #[derive(Clone, Copy, Debug)]
 pub struct Optional<K>(std::marker::PhantomData<K>);

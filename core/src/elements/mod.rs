@@ -11,6 +11,7 @@ pub mod beam_line;
 mod clearance;
 
 pub(crate) mod contact;
+mod convex_parts;
 mod corner;
 mod curve_forms;
 mod curve_formula;
@@ -32,10 +33,13 @@ mod line;
 mod measure;
 mod measured;
 mod mode;
+mod near;
 mod nearest;
 mod part;
 mod plain_bearing;
 mod plane_curve;
+mod polygon;
+mod polygon_foot;
 mod pool;
 mod pressing;
 mod quantity_kind;
@@ -133,6 +137,7 @@ use crate::math::{Lift, Listed, Local, Pose, Real, Vec2, Wrench};
 pub use apart::{Apart, Way};
 pub use attachment::Attachment;
 pub use clearance::Clearance;
+pub use convex_parts::{convex_corners, convex_parts};
 
 pub use curve_forms::{CurveForm, CURVE_FORMS};
 pub use curve_formula::Formula as CurveFormula;
@@ -145,7 +150,7 @@ use dispatch::{constraints, declared};
 use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES, UNITS_OF_EQUATIONS};
 pub use followed::{Acted, BodyId, Coordinate, CoordinateOf, Followed, JointId, QuantityOf, PLACE};
-pub use foot::{rim, Rim};
+pub use foot::{rim, rim_or_curves, Rim};
 use force_dispatch::forces;
 pub use force_trait::{Force, Held, OwnPowers, OwnState, Situation, Wrenches};
 use forces::*;
@@ -157,14 +162,15 @@ use joints::*;
 pub use kinds::{
     acted, bearing, body, condition, coordinate, curve, equation_unit, flag, frame, joint, law,
     law_pair, laws, normal_law, number, optional_condition, optional_law, optional_number,
-    optional_only, optional_pair, optional_unit, pair, point, side, terms, triple, units, CurveOn,
-    Frame, Kind, NormalLaw, Only, Optional, PointOn, Side, Source,
+    optional_only, optional_pair, optional_unit, pair, point, point_or_curves, side, terms, triple,
+    two_texts, units, CurveOn, Frame, Kind, NormalLaw, Only, Optional, PointOn, Side, Source,
 };
 pub use measured::Measured;
 pub use mode::{Behaviour, Mode};
 pub use part::{Nature, Part};
 pub use plain_bearing::Bearing;
 pub use plane_curve::Curve;
+pub use polygon::Polygon;
 pub use pool::{Place, Pooled, VisitForces, VisitJoints};
 pub use quantity_kind::QuantityKind;
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};

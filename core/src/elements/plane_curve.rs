@@ -7,6 +7,7 @@
 
 use super::curve_formula::Formula;
 use super::curve_points::CurvePoints;
+use super::polygon::Polygon;
 use super::quantity_kind::QuantityKind;
 use crate::expression::Knots;
 use crate::math::{indexed, Interpolation, Local, Real};
@@ -33,6 +34,8 @@ pub enum Curve<S = f64> {
         /// Its last end, m.
         to: Local<S>,
     },
+    /// A closed polygon; u is the length along it from its first corner, counter-clockwise.
+    Polygon(Polygon),
     /// The curve near u = `at`, by its derivatives of order 0 to 3 there.
     Near {
         /// u.
@@ -48,7 +51,7 @@ impl<S> Curve<S> {
         match self {
             Self::Formula(formula) => formula.periodic,
             Self::Points(points) => points.periodic,
-            Self::Circle { .. } => true,
+            Self::Circle { .. } | Self::Polygon(_) => true,
             Self::Line { .. } | Self::Near { .. } => false,
         }
     }
@@ -58,7 +61,9 @@ impl<S> Curve<S> {
         match self {
             Self::Formula(formula) => formula.kind,
             Self::Circle { .. } => QuantityKind::Angle,
-            Self::Points(_) | Self::Line { .. } | Self::Near { .. } => QuantityKind::Length,
+            Self::Points(_) | Self::Line { .. } | Self::Polygon(_) | Self::Near { .. } => {
+                QuantityKind::Length
+            }
         }
     }
 
@@ -73,6 +78,7 @@ impl<S> Curve<S> {
                 Curve::Circle { center, radius: f(radius) }
             }
             Self::Line { from, to } => Curve::Line { from: local(from), to: local(to) },
+            Self::Polygon(own) => Curve::Polygon(own.clone()),
             Self::Near { at, terms } => {
                 let [c0, c1, c2, c3] = terms;
                 let terms = [local(c0), local(c1), local(c2), local(c3)];
@@ -90,6 +96,7 @@ impl<S: Real> Curve<S> {
             Self::Points(points) => points.range(),
             Self::Circle { .. } => [S::zero(), S::constant(std::f64::consts::TAU)],
             Self::Line { from, to } => [S::zero(), apart(*from, *to).norm()],
+            Self::Polygon(own) => [S::zero(), S::constant(own.length())],
             Self::Near { at, .. } => [*at, *at],
         }
     }
@@ -111,6 +118,7 @@ impl<S: Real> Curve<S> {
                 let here = Local::new(from.x + direction.x * u, from.y + direction.y * u);
                 [here, direction, Local::zero(), Local::zero()]
             }
+            Self::Polygon(own) => own.derivatives(u),
             Self::Near { at, terms } => taylor(*terms, u - *at),
         }
     }

@@ -62,8 +62,8 @@ pub trait Presses: Element {
     /// The bodies i and j.
     fn pair<S>(e: &Self::Over<S>) -> [BodyId; 2];
 
-    /// Whether the nearest point of the curve has a closed form.
-    fn is_closed_form<S>(e: &Self::Over<S>) -> bool;
+    /// Whether formulas give its forces.
+    fn has_formulas<S>(e: &Self::Over<S>) -> bool;
 
     /// Whether it is compliant.
     fn is_compliant<S>(e: &Self::Over<S>) -> bool;
@@ -257,7 +257,7 @@ impl<E: Presses> Force for E {
     }
 
     fn has_formulas<S>(e: &E::Over<S>) -> bool {
-        E::is_closed_form(e)
+        <E as Presses>::has_formulas(e)
     }
 
     fn measure<S: Real>(e: &E::Over<S>, at: &At<'_, S>, out: &mut [S]) {
@@ -357,9 +357,17 @@ impl<E: Presses> Force for E {
         <E as Presses>::requires(e, at)
     }
 
-    fn holding(e: &E::Over<Tape>, _: f64, _: f64) -> Option<Constraint<Tape>> {
+    fn side<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>) -> f64 {
+        E::pressing(e).touch().side(at)
+    }
+
+    fn margin<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>) -> Option<S> {
+        E::pressing(e).touch().margin(at)
+    }
+
+    fn holding(e: &E::Over<Tape>, at: f64, _: f64) -> Option<Constraint<Tape>> {
         let Pressing { i, curve, radius, side, .. } = E::pressing(e);
-        let curve = curve.into_owned();
+        let curve = curve.supporting(at);
         Some(Constraint::Resting(Resting { i: i.clone(), curve, radius, side }))
     }
 

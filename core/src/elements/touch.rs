@@ -14,10 +14,12 @@
 //! equation s = constant of the positions, also for a compliant contact, in which d < r. In a rigid contact d = r, and
 //! the pitch point is C(u).
 
-use super::foot::{Near, Rim};
+use super::foot::{side_of, support_of, Rim};
 use super::force_trait::Situation;
 use super::hertz::Depth;
 use super::kinds::{PointOn, Side};
+use super::mode::Mode;
+use super::near::Near;
 use super::plane_curve::Curve;
 use crate::math::{Local, Pose, Real, Vec2, Wrench};
 
@@ -74,6 +76,21 @@ impl<S: Real> CurveTouch<'_, S> {
         self.near(i, j).distance - self.radius
     }
 
+    /// The side at which the circle touches: -1, or less for an edge or corner of a polygon.
+    pub fn side(&self, at: &Situation<'_, S>) -> f64 {
+        let Curve::Polygon(own) = &self.curve.on.curve else { return -1.0 };
+        let p = self.center(&at.i().pose, &at.j().pose);
+        side_of(own.support(Local::new(p.x.in_lanes()[0], p.y.in_lanes()[0])))
+    }
+
+    /// How far the circle is from the end of the edge or corner on which it rests, as a part of the circumference of the
+    /// polygon.
+    pub fn margin(&self, at: &Situation<'_, S>) -> Option<S> {
+        let Curve::Polygon(own) = &self.curve.on.curve else { return None };
+        let support = support_of_mode(at.mode)?;
+        Some(own.margin(support, self.center(&at.i().pose, &at.j().pose)))
+    }
+
     /// +1 if growing u has the body of the curve at its left.
     fn turned(&self) -> S {
         S::constant(match self.side {
@@ -99,7 +116,7 @@ impl<S: Real> CurveTouch<'_, S> {
     pub fn at_pitch(&self, at: &Situation<'_, S>) -> TouchPoint<S> {
         let p = self.center(&at.i().pose, &at.j().pose);
         self.at(at, |near| {
-            let ratio = self.ratio(p, near.distance);
+            let ratio = self.ratio(p, near.distance, at.mode);
             (self.radius / ratio, ratio)
         })
     }
@@ -107,7 +124,12 @@ impl<S: Real> CurveTouch<'_, S> {
     /// The state with a place of action at a distance from the centre of the circle.
     fn at(&self, at: &Situation<'_, S>, place: impl Fn(&Near<S>) -> (S, S)) -> TouchPoint<S> {
         let (i, j) = (at.i(), at.j());
-        let near = self.near(&i.pose, &j.pose);
+        let near = match (&self.curve.on.curve, support_of_mode(at.mode)) {
+            (Curve::Polygon(own), Some(support)) => {
+                own.foot_on_support(support, self.center(&i.pose, &j.pose)).near
+            }
+            _ => self.near(&i.pose, &j.pose),
+        };
         let (from_center, ratio) = place(&near);
         let away = j.pose.global(near.away);
         let along = away.perp().scale(self.turned());
@@ -130,7 +152,7 @@ impl<S: Real> CurveTouch<'_, S> {
     }
 
     /// c for the centre of the circle in the frame of body j. Beyond the end of a line, ρ = 0.
-    fn ratio(&self, p: Local<S>, distance: S) -> S {
+    fn ratio(&self, p: Local<S>, distance: S, mode: Mode) -> S {
         let of = |bend: S| {
             // a point on a corner has neither curvature nor distance
             let below = bend + distance;
@@ -144,12 +166,19 @@ impl<S: Real> CurveTouch<'_, S> {
                 let (u, length) = along_line(p, *from, *to);
                 S::select(-u, of(S::zero()), S::select(u - length, of(S::zero()), S::one()))
             }
+            Curve::Polygon(own) => {
+                let level = match support_of_mode(mode) {
+                    Some(support) => own.foot_on_support(support, p).level,
+                    None => own.foot(p).level,
+                };
+                S::select(level, S::one(), of(S::zero()))
+            }
             _ => S::one(),
         }
     }
 
-    /// s of lines and circles, less `value`, for the poses of bodies i and j. The length along a circle is known up to
-    /// whole turns; that with the smallest magnitude is chosen.
+    /// s of lines, circles and polygons, less `value`, for the poses of bodies i and j. The length along a closed curve
+    /// is known up to whole turns; that with the smallest magnitude is chosen.
     pub fn rolled(&self, i: &Pose<S>, j: &Pose<S>, value: S) -> S {
         let (p, turned) = (self.center(i, j), self.turned());
         let spin = turned * self.radius * (i.angle - j.angle);
@@ -157,8 +186,11 @@ impl<S: Real> CurveTouch<'_, S> {
             Curve::Circle { center, .. } => {
                 let (arm, pitch) = (p - *center, self.pitch());
                 let turn = S::constant(std::f64::consts::TAU) * pitch;
-                let s = pitch * arm.y.atan2(arm.x) - spin - value;
-                s - turn * (s / turn + S::constant(0.5)).floor()
+                within_turn(pitch * arm.y.atan2(arm.x) - spin - value, turn)
+            }
+            Curve::Polygon(own) => {
+                let [length, angle] = own.foot(p).along;
+                within_turn(length + self.radius * angle - spin - value, own.turn(self.radius))
             }
             Curve::Line { from, to } => {
                 let (u, length) = along_line(p, *from, *to);
@@ -172,6 +204,19 @@ impl<S: Real> CurveTouch<'_, S> {
             _ => S::zero(),
         }
     }
+}
+
+/// The edge or corner of a polygon on which a contact in this mode rests.
+fn support_of_mode(mode: Mode) -> Option<usize> {
+    match mode {
+        Mode::Holds(side) => support_of(side),
+        _ => None,
+    }
+}
+
+/// The value of s with the smallest magnitude that differs by whole turns.
+fn within_turn<S: Real>(s: S, turn: S) -> S {
+    s - turn * (s / turn + S::constant(0.5)).floor()
 }
 
 /// The length along a line to the foot of p, and the length of the line.

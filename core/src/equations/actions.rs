@@ -1,9 +1,11 @@
-//! The actions of force elements as they are reported: with torques about the places at which the forces act.
+//! The actions of force elements as they are reported: with torques about the places at which the forces act, with
+//! their results and powers, and with all parts of a force together.
 
-use super::forces::{at_state, each_wrench, reported, Acting};
+use super::forces::{at_state, each_wrench, potential, reported, threshold, Acting};
 use super::kinematics::Motions;
+use super::powers::Powers;
 use crate::elements::BodyId;
-use crate::math::{Listed, Real, Vec2, Wrench};
+use crate::math::{Real, Vec2, Wrench};
 use crate::model::Model;
 
 /// Calls `visit` with the part, body and value of every wrench of force `k`, in the global frame. The torque is about
@@ -17,7 +19,7 @@ pub fn each_action<S: Real>(
     mut visit: impl FnMut(usize, BodyId, Wrench<S>),
 ) {
     let arms = arms(model, k, motions, acting);
-    for own in model.with_companion(k) {
+    for own in model.whole(k) {
         // the friction of a contact is the last part of the contact
         let parts = |k: usize| model.forces[k].element.parts().len();
         let first = parts(k) - parts(own);
@@ -44,14 +46,121 @@ pub fn place<S: Real>(
     motions[body.0].pose.r + arm
 }
 
-/// The bodies on which force `k` acts at a point, each with the vector from its origin to this point.
+/// The bodies on which force `k` acts at a point, each with the vector from its origin to this point: that of the
+/// closest part.
 fn arms<S: Real>(
     model: &Model<S>,
     k: usize,
     motions: &Motions<S>,
     acting: Acting<'_, S>,
 ) -> Vec<(BodyId, Vec2<S>)> {
-    let at = reported(model, k, motions, acting);
-    let arms = at_state(model, &model.forces[k], motions, acting).arms(&at);
-    arms.into_iter().flatten().enumerate().map(|(k, arm)| (at.bodies[k], arm)).list()
+    let mut found: Vec<(BodyId, Vec2<S>)> = Vec::new();
+    each_closer(model, k, motions, acting, |part, closer| {
+        let at = reported(model, part, motions, acting);
+        let arms = at_state(model, &model.forces[part], motions, acting).arms(&at);
+        for (body, arm) in arms.into_iter().flatten().enumerate() {
+            let body = at.bodies[body];
+            match (found.iter_mut().find(|(known, _)| *known == body), closer) {
+                (Some((_, known)), Some(closer)) => {
+                    let pick = |own: S, other: S| S::select(closer, own, other);
+                    *known = Vec2::new(pick(arm.x, known.x), pick(arm.y, known.y));
+                }
+                _ => found.push((body, arm)),
+            }
+        }
+    });
+    found
+}
+
+/// The results of force `k` in addition to its wrenches, in `out`. Of several parts, forces add up; the other results
+/// are those of the part with the least threshold.
+#[inline]
+pub fn results<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+    out: &mut [S],
+) {
+    results_of_part(model, k, motions, acting, out);
+    if model.forces[k].further.is_empty() {
+        return;
+    }
+    let mut own = vec![S::zero(); out.len()];
+    each_closer(model, k, motions, acting, |part, closer| {
+        let Some(closer) = closer else { return };
+        results_of_part(model, part, motions, acting, &mut own);
+        let quantities = model.forces[k].element.result_quantities();
+        for ((to, own), of) in out.iter_mut().zip(&own).zip(quantities) {
+            *to = if of.unit == "N" { *to + *own } else { S::select(closer, *own, *to) };
+        }
+    });
+}
+
+/// Calls `visit` for each part of force `k`. The second argument is positive where the threshold of a further part is
+/// less than those of the parts before it.
+fn each_closer<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+    mut visit: impl FnMut(usize, Option<S>),
+) {
+    visit(k, None);
+    let parts = model.forces[k].further.clone();
+    if parts.is_empty() {
+        return;
+    }
+    let mut least = threshold(model, k, motions, acting);
+    for part in parts {
+        let own = threshold(model, part, motions, acting);
+        visit(part, Some(least - own));
+        least = S::select(least - own, own, least);
+    }
+}
+
+/// The results of one part of a force. The friction of a contact gives the last of them.
+#[inline]
+fn results_of_part<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+    out: &mut [S],
+) {
+    for k in model.with_companion(k) {
+        let element = at_state(model, &model.forces[k], motions, acting);
+        let first = out.len() - element.result_quantities().len();
+        element.results(&reported(model, k, motions, acting), &mut out[first..]);
+    }
+}
+
+/// Potential energy of force `k` with its further parts, J.
+pub fn stored<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+) -> S {
+    let of = |part| potential(model, part, motions, acting);
+    model.parts(k).fold(S::zero(), |sum, part| sum + of(part))
+}
+
+/// Power that force `k` dissipates, W, with its further parts and the friction of a contact.
+pub fn dissipated<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+) -> S {
+    let mut powers = Powers::zero();
+    for k in model.whole(k) {
+        let element = at_state(model, &model.forces[k], motions, acting);
+        let at = reported(model, k, motions, acting);
+        element.action(&at, &mut |part: usize, body: usize, w: Wrench<S>| {
+            powers.add(element.parts()[part].nature, || w.power(at.body(body).twist));
+        });
+        powers.add_own(element.own_powers(&at));
+    }
+    powers.dissipated
 }

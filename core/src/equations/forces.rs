@@ -247,22 +247,6 @@ pub fn reserve<S: Real>(
     element.reserve(&reported(model, k, motions, acting))
 }
 
-/// The results of force `k` in addition to its wrenches, in `out`. The friction of a contact gives the last of them.
-#[inline]
-pub fn results<S: Real>(
-    model: &Model<S>,
-    k: usize,
-    motions: &Motions<S>,
-    acting: Acting<'_, S>,
-    out: &mut [S],
-) {
-    for k in model.with_companion(k) {
-        let element = at_state(model, &model.forces[k], motions, acting);
-        let first = out.len() - element.result_quantities().len();
-        element.results(&reported(model, k, motions, acting), &mut out[first..]);
-    }
-}
-
 /// The reaction of the joint on which force `k` depends, on its body j at its joint point, in the global frame. Zero
 /// without such a joint or without multipliers.
 #[inline(always)]
@@ -361,7 +345,7 @@ pub(super) fn switches<S: Real>(
     }
 }
 
-/// Potential energy of force `k`, J, including the energy stored in its states. The potential is zero if a law makes
+/// Potential energy of one part of a force `k`, J, including the energy stored in its states. The potential is zero if a law makes
 /// the force non-conservative.
 pub fn potential<S: Real>(
     model: &Model<S>,
@@ -377,23 +361,4 @@ pub fn potential<S: Real>(
         Some(_) if item.states.is_empty() => S::zero(),
         Some(_) => at_state(model, item, motions, acting).own_energy(at),
     }
-}
-
-/// Power that force `k` dissipates, W, with the friction of a contact.
-pub fn dissipated<S: Real>(
-    model: &Model<S>,
-    k: usize,
-    motions: &Motions<S>,
-    acting: Acting<'_, S>,
-) -> S {
-    let mut powers = Powers::zero();
-    for k in model.with_companion(k) {
-        let element = at_state(model, &model.forces[k], motions, acting);
-        let at = reported(model, k, motions, acting);
-        element.action(&at, &mut |part: usize, body: usize, w: Wrench<S>| {
-            powers.add(element.parts()[part].nature, || w.power(at.body(body).twist));
-        });
-        powers.add_own(element.own_powers(&at));
-    }
-    powers.dissipated
 }

@@ -33,6 +33,27 @@ pub fn measured<S: Real>(
     motions: &Motions<S>,
     a: &[S],
 ) -> Vec<Jet<S>> {
+    let mut values = measured_of_part(model, id, motions, a);
+    let further = match id {
+        ElementId::Force(k) => model.forces[k].further.clone(),
+        ElementId::Constraint(_) => 0..0,
+    };
+    // the least of several gaps
+    for part in further {
+        let own = measured_of_part(model, ElementId::Force(part), motions, a);
+        for (to, own) in values.iter_mut().zip(own) {
+            *to = Jet::select(*to - own, own, *to);
+        }
+    }
+    values
+}
+
+fn measured_of_part<S: Real>(
+    model: &Model<S>,
+    id: ElementId,
+    motions: &Motions<S>,
+    a: &[S],
+) -> Vec<Jet<S>> {
     let mut values = vec![Jet::zero(); offered(model, id).len()];
     let pose = |body: &BodyId| moving(model, *body, motions, a);
     match id {

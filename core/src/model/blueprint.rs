@@ -6,6 +6,7 @@ use super::doubt::Doubt;
 use super::functions::Functions;
 use super::items::{Body, ForceMode};
 use super::link::Linker;
+use super::pairs;
 use super::play;
 use super::problem::Problem;
 use super::scope::{states, Quantities, Scope};
@@ -43,6 +44,9 @@ pub struct Blueprint {
     pub constraints: Arc<Vec<(String, Group, Constraint<Tape>)>>,
     /// Forces, with their first-order states.
     pub forces: Arc<Vec<LinkedForce>>,
+    /// The forces before the companions are further parts of these forces, a contact of two curves for example. They
+    /// follow each other.
+    pub further: Arc<Vec<usize>>,
     /// The last forces are companions of these forces, see [`Force::companion`](crate::elements::Force::companion).
     pub companions: Arc<Vec<usize>>,
     /// The modes of forces in a phase of a run. Forces that hold have the last constraints, in this order.
@@ -60,14 +64,15 @@ pub struct Blueprint {
 }
 
 impl Blueprint {
-    /// Links all joints, drivers and forces of a definition.
+    /// Links all joints, drivers and forces of a definition. Returns the further parts of forces with their indices.
     pub(super) fn link_all(
         &mut self,
         definition: &Definition,
         scope: &Scope,
         quantities: &dyn Quantities,
         problems: &mut Vec<Problem>,
-    ) {
+    ) -> Vec<(usize, LinkedForce)> {
+        let mut further = Vec::new();
         for (group, entries) in [
             (Group::Joints, &definition.joints),
             (Group::Drivers, &definition.drivers),
@@ -75,18 +80,19 @@ impl Blueprint {
         ] {
             for entry in entries {
                 let group = if play::is_written(entry) { Group::Joints } else { group };
-                self.link(group, entry, scope, quantities, problems);
+                self.link((group, entry), scope, quantities, problems, &mut further);
             }
         }
+        further
     }
 
     fn link(
         &mut self,
-        group: Group,
-        entry: &Entry,
+        (group, entry): (Group, &Entry),
         scope: &Scope,
         quantities: &dyn Quantities,
         problems: &mut Vec<Problem>,
+        further: &mut Vec<(usize, LinkedForce)>,
     ) {
         let Some(Value::Text(kind)) = entry.get("type") else {
             let message = format!("this {} has no type", group.singular());
@@ -96,15 +102,23 @@ impl Blueprint {
         let linked = (self.bodies.as_slice(), self.constraints.as_slice());
         let mut linker = Linker::new(group, entry, scope, linked, quantities, problems);
         let force = match group {
-            Group::Forces => Some(ForceElement::read(group, kind, &mut linker)),
-            _ if play::is_written(entry) => Some(play::read(entry, kind, &mut linker)),
+            Group::Forces => Some(pairs::read(kind, &mut linker)),
+            _ if play::is_written(entry) => {
+                Some(play::read(entry, kind, &mut linker).map(|e| e.map(|e| vec![e])))
+            }
             _ => None,
         };
         let known = if let Some(force) = force {
-            force.map(|e| {
-                let e = e.filter(|e| self.two_bodies(group, entry, &e.bodies(), problems));
-                let linked = e.map(|e| (entry.name.clone(), states(entry), e));
-                Arc::make_mut(&mut self.forces).extend(linked);
+            force.map(|all| {
+                let all = all.unwrap_or_default();
+                if all.first().is_some_and(|e| self.two_bodies(group, entry, &e.bodies(), problems))
+                {
+                    let k = self.forces.len();
+                    let linked = |e| (entry.name.clone(), states(entry), e);
+                    let mut all = all.into_iter().map(linked);
+                    Arc::make_mut(&mut self.forces).extend(all.next());
+                    further.extend(all.map(|e| (k, e)));
+                }
             })
         } else {
             Constraint::read(group, kind, &mut linker).map(|e| {
@@ -165,6 +179,13 @@ impl Blueprint {
         true
     }
 
+    /// Adds the further parts of forces.
+    pub(super) fn add_further(&mut self, further: Vec<(usize, LinkedForce)>) {
+        let (of, forces): (Vec<usize>, Vec<LinkedForce>) = further.into_iter().unzip();
+        self.further = of.into();
+        Arc::make_mut(&mut self.forces).extend(forces);
+    }
+
     /// Adds the companions of all forces.
     pub(super) fn add_companions(&mut self) {
         let of = |(k, (name, _, force)): (usize, &LinkedForce)| {
@@ -191,6 +212,7 @@ impl Blueprint {
         Self {
             constraints: constraints.into(),
             forces: Arc::default(),
+            further: Arc::default(),
             companions: Arc::default(),
             ..self.clone()
         }

@@ -22,7 +22,7 @@ fn points() -> Field {
 
 fn curves() -> Field {
     let doc = "Named curves in the frame of the body, for joints on curves: formulas x, y of u with range and \
-    periodic; polar; points; circle; or line.";
+    periodic; polar; points; circle; line; or, for contacts, polygon.";
     Field::optional("curves", Shape::Curves, "", Default::Absent, doc)
 }
 

@@ -39,6 +39,7 @@ pub fn build(
         bodies: bodies.clone().into(),
         constraints: Arc::default(),
         forces: Arc::default(),
+        further: Arc::default(),
         companions: Arc::default(),
         functions: definition.functions.clone(),
         doubts: Vec::new(),
@@ -47,13 +48,14 @@ pub fn build(
         phases: Vec::new(),
         rigid: None,
     };
-    blueprint.link_all(definition, &scope, &quantities, &mut problems);
+    let further = blueprint.link_all(definition, &scope, &quantities, &mut problems);
     if !linked.is_empty() && problems.is_empty() {
         let mut rigid = Blueprint { allow_redundancy: true, ..blueprint.clone() };
         beams::weld(&mut rigid, &linked);
         blueprint.rigid = Some(Arc::new(rigid));
     }
     beams::connect(&mut blueprint, linked);
+    blueprint.add_further(further);
     blueprint.add_companions();
     for (k, unit) in scope.units.take() {
         let functions = blueprint.functions.iter_mut();

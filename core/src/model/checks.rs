@@ -44,13 +44,12 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
                 .push(Problem::at(&["gravity", &k.to_string()], format!("{g}; must be finite")));
         }
     }
-    let parameters = &model.parameters;
     // the piece of a beam reports faults of its lock
     for item in model.constraints.iter().filter(|item| item.element.in_files()) {
         let section = item.group.section();
         let element = match &item.law {
             None => item.element.clone(),
-            Some(law) => law.map(&mut |tape| constant(tape, parameters)),
+            Some(law) => law.map(&mut |tape| constant(tape, &model.parameters)),
         };
         if item.law.is_none() {
             element.map(&mut |x| check(&[section, &item.name], *x, problems));
@@ -63,13 +62,12 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
 }
 
 fn forces(model: &Model, problems: &mut Vec<Problem>) {
-    let parameters = &model.parameters;
     let least = CLOSED * size(model);
     for item in &model.forces {
         let section = item.element.group().section();
         let element = match &item.law {
             None => item.element.clone(),
-            Some(law) => law.map(&mut |tape| constant(tape, parameters)),
+            Some(law) => law.map(&mut |tape| constant(tape, &model.parameters)),
         };
         if !element.in_files() {
             piece(beam_of(&item.name), &element, problems);
@@ -84,9 +82,11 @@ fn forces(model: &Model, problems: &mut Vec<Problem>) {
             );
             (field, message)
         });
-        if let Some((field, message)) = element.fault().or(small) {
-            problems.push(Problem::at(&[section, &item.name, field], message));
-        }
+        let fault = element.fault().or(small);
+        let fault =
+            fault.map(|(field, message)| Problem::at(&[section, &item.name, field], message));
+        // the parts of a contact have the same fields
+        problems.extend(fault.filter(|fault| !problems.contains(fault)));
     }
 }
 

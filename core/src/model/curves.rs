@@ -3,8 +3,8 @@
 use super::definition::{Entry, Value};
 use super::problem::Problem;
 use super::scope::{Reach, Scope};
-use crate::elements::{Curve, CurveFormula, CurvePoints, CURVE_FORMS};
-use crate::expression::Tape;
+use crate::elements::{Curve, CurveFormula, CurvePoints, Polygon, CURVE_FORMS};
+use crate::expression::{FormulaValues, Tape};
 use crate::math::{Interpolation, Listed, Local};
 
 /// Curves by name. A faulty curve is None, and its fault is reported.
@@ -41,6 +41,7 @@ impl<'a> Reader<'a> {
             "x" => self.components(),
             "polar" => self.polar(),
             "points" => self.points(),
+            "polygon" => self.polygon(),
             "circle" => {
                 let [x, y, radius] = self.numbers::<3>("circle")?;
                 Some(Curve::Circle { center: Local { x, y }, radius })
@@ -113,19 +114,43 @@ impl<'a> Reader<'a> {
         Some(Curve::Formula(CurveFormula::new(x, y, range, true).polar()))
     }
 
-    fn points(&mut self) -> Option<Curve<Tape>> {
-        let Value::List(items) = self.get("points")? else {
-            return self.report(Some("points"), "must be a list of points [[x, y], …]".to_string());
+    /// The written list of points; None if one of them is faulty.
+    fn list(&mut self, key: &str) -> Option<Vec<Local<Tape>>> {
+        let Value::List(items) = self.get(key)? else {
+            return self.report(Some(key), "must be a list of points [[x, y], …]".to_string());
         };
         let mut points = Vec::new();
-        let mut complete = true;
         for (k, item) in items.iter().enumerate() {
-            let path: Vec<String> = self.at("points").into_iter().chain([k.to_string()]).list();
-            match self.scope.pair(item, &path, "m", self.problems) {
-                Some([x, y]) => points.push(Local { x, y }),
-                None => complete = false,
-            }
+            let path: Vec<String> = self.at(key).into_iter().chain([k.to_string()]).list();
+            points.extend(self.scope.pair(item, &path, "m", self.problems));
         }
+        (points.len() == items.len())
+            .then(|| points.into_iter().map(|[x, y]| Local { x, y }).list())
+    }
+
+    /// A polygon, whose corners are numbers, because they determine the convex parts.
+    fn polygon(&mut self) -> Option<Curve<Tape>> {
+        let corners = self.list("polygon")?;
+        if corners.len() < 3 {
+            let message = format!("has {} corners; must have at least three", corners.len());
+            return self.report(Some("polygon"), message);
+        }
+        let varies = |s: &Local<Tape>| !(s.x.symbols().is_empty() && s.y.symbols().is_empty());
+        if let Some(k) = corners.iter().position(varies) {
+            let message = format!(
+                "corner {} depends on a parameter; the corners of a polygon must be numbers; for a \
+                 sweep over its shape, make a case for each",
+                k + 1
+            );
+            return self.report(Some("polygon"), message);
+        }
+        let values = FormulaValues { parameters: &[], time: f64::NAN, variables: &[] };
+        let of = |s: &Local<Tape>| Local::new(s.x.evaluate(&values), s.y.evaluate(&values));
+        Some(Curve::Polygon(Polygon::new(&corners.iter().map(of).list())))
+    }
+
+    fn points(&mut self) -> Option<Curve<Tape>> {
+        let listed = self.list("points");
         let kind = match self.get("interpolation") {
             None => Interpolation::Quintic,
             Some(Value::Text(word)) if Interpolation::named(word).is_some() => {
@@ -136,14 +161,14 @@ impl<'a> Reader<'a> {
                 return self.report(Some("interpolation"), format!("must be one of {known}"));
             }
         };
-        let periodic = self.periodic()?;
+        let (periodic, points) = (self.periodic()?, listed?);
         // a periodic curve repeats its first point at its end
         let least = kind.least(periodic) - usize::from(periodic);
-        if complete && points.len() < least {
+        if points.len() < least {
             let message = format!("has {} points; must have at least {least}", points.len());
             return self.report(Some("points"), message);
         }
-        complete.then(|| Curve::Points(CurvePoints::new(points, kind, periodic)))
+        Some(Curve::Points(CurvePoints::new(points, kind, periodic)))
     }
 
     fn ends(&mut self, key: &str, written: &Value) -> Option<[Local<Tape>; 2]> {

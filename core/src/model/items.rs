@@ -190,6 +190,8 @@ pub struct ForceItem<S = f64> {
     pub states: &'static [OwnState],
     /// The joint whose reaction the force uses.
     pub reaction: Option<JointId>,
+    /// The indices of its further parts.
+    pub further: std::ops::Range<usize>,
     /// The index of the friction of a contact, or of the contact of a friction, see [`Force::companion`](crate::elements::Force::companion).
     pub partner: Option<usize>,
     /// Whether the force is the friction of a contact.

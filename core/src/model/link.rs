@@ -9,14 +9,26 @@ use super::problems::MOST_REPORTED;
 use super::scope::{LawOf, Quantities, Reach, Scope};
 use super::unit_check::ANY_UNIT;
 use crate::elements::{
-    measured_of, BodyId, Constraint, Coordinate, CoordinateOf, Default, Field, Followed, Group,
-    Measured, QuantityKind,
+    measured_of, BodyId, Constraint, Coordinate, CoordinateOf, CurveOn, Default, Field, Followed,
+    Group, Measured, PointOn, QuantityKind, Side,
 };
 use crate::expression::{suggest, Tape};
 use crate::math::Listed;
 
 /// A linked joint or driver.
 type Named = (String, Group, Constraint<Tape>);
+
+/// A point or circle of a body and a curve of another, in place of written fields.
+#[derive(Clone)]
+pub(super) struct Pairing {
+    pub point: PointOn<Tape>,
+    pub curve: CurveOn<Tape>,
+    pub side: Side,
+    /// The radius of a circle; None for the written radius.
+    pub radius: Option<Tape>,
+    /// Added to the written radius.
+    pub rounding: f64,
+}
 
 /// Reads the fields of one element.
 pub struct Linker<'a> {
@@ -27,6 +39,8 @@ pub struct Linker<'a> {
     pub(super) bodies: &'a [Body<Tape>],
     pub(super) constraints: &'a [Named],
     pub(super) quantities: &'a dyn Quantities,
+    /// A point and a curve that take the place of the written ones.
+    pub(super) pairing: Option<Pairing>,
     /// Whether laws are read. Otherwise they are zero.
     pub(super) laws: bool,
     pub(super) problems: &'a mut Vec<Problem>,
@@ -43,7 +57,18 @@ impl<'a> Linker<'a> {
         problems: &'a mut Vec<Problem>,
     ) -> Self {
         let section = group.section();
-        Self { group, section, entry, scope, bodies, constraints, quantities, laws: true, problems }
+        Self {
+            group,
+            section,
+            entry,
+            scope,
+            bodies,
+            constraints,
+            quantities,
+            pairing: None,
+            laws: true,
+            problems,
+        }
     }
 
     /// A linker for an entry without its laws, because its quantities do not depend on them.
@@ -164,6 +189,25 @@ impl<'a> Linker<'a> {
             (Group::Forces, Some(Value::Text(kind))) => measured_of(kind),
             _ => &[],
         }
+    }
+
+    /// A curve by name. Reports an unknown name with a suggestion.
+    pub(super) fn curve_named(&mut self, field: &Field, text: &str) -> Option<CurveOn<Tape>> {
+        let (body, name) = self.split(field, text, "body.curve")?;
+        let owner = &self.bodies[body.0];
+        if let Some((_, found)) = owner.curves.iter().find(|(own, _)| own == name) {
+            // the fault of a faulty curve is reported where the curve is defined
+            return found.clone().map(|curve| CurveOn { body, curve });
+        }
+        let hint = self.suggests().then(|| {
+            let names: Vec<&str> = owner.curves.iter().map(|(n, _)| n.as_str()).list();
+            match owner.point(name) {
+                Some(_) => Some(format!("'{name}' is a point of {}", owner.name)),
+                None => did_you_mean(name, &names, &format!("curves of {}", owner.name)),
+            }
+        });
+        let message = format!("body '{}' has no curve '{name}'", owner.name);
+        self.report(field, message, hint.flatten())
     }
 
     /// A position quantity by name.

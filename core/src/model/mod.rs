@@ -23,6 +23,7 @@ mod link;
 mod model;
 mod modes;
 mod outline;
+mod pairs;
 mod parameters;
 mod places;
 mod play;

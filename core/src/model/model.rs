@@ -189,6 +189,7 @@ fn forces<S: Real>(
             first_switch,
             mode: Mode::Open,
             held_row: None,
+            further: 0..0,
             partner: None,
             is_companion: false,
             load_row: None,
@@ -200,6 +201,11 @@ fn forces<S: Real>(
         (all[of].partner, all[k].partner) = (Some(k), Some(of));
         // both read the same switches
         (all[k].is_companion, all[k].first_switch) = (true, all[of].first_switch);
+    }
+    let first = first - blueprint.further.len();
+    for (k, of) in blueprint.further.iter().enumerate().map(|(k, of)| (first + k, *of)) {
+        let start = if all[of].further.is_empty() { k } else { all[of].further.start };
+        all[of].further = start..k + 1;
     }
     all
 }
@@ -236,14 +242,23 @@ impl<S> Model<S> {
             _ => format!("{}.{}", item.name, item.equations[equation].name),
         }
     }
-    /// The forces that a case contains, without their companions.
+    /// The forces that a case contains, without their further parts and companions.
     pub fn listed_forces(&self) -> &[ForceItem<S>] {
-        &self.forces[..self.forces.len() - self.blueprint.companions.len()]
+        let made = self.blueprint.further.len() + self.blueprint.companions.len();
+        &self.forces[..self.forces.len() - made]
     }
-    /// Force `k`, and its companion.
+    /// Force `k` and its further parts.
+    pub fn parts(&self, k: usize) -> impl Iterator<Item = usize> {
+        std::iter::once(k).chain(self.forces[k].further.clone())
+    }
+    /// Force `k` and its companion, without further parts.
     pub fn with_companion(&self, k: usize) -> impl Iterator<Item = usize> {
         let item = &self.forces[k];
         std::iter::once(k).chain(item.partner.filter(|_| !item.is_companion))
+    }
+    /// Force `k`, its further parts and all their companions.
+    pub fn whole(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
+        self.parts(k).flat_map(|k| self.with_companion(k))
     }
     /// A force by name.
     pub fn force(&self, name: &str) -> Option<usize> {

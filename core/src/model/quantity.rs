@@ -7,6 +7,7 @@ use super::blueprint::Blueprint;
 use super::definition::{Definition, Entry, Value};
 use super::items::Body;
 use super::link::Linker;
+use super::pairs;
 use super::play;
 use super::quantity_owner::{place, FormulaModel, QuantityOwner};
 use super::scope::{Quantities, Scope};
@@ -61,7 +62,7 @@ impl<'a> Elements<'a> {
                 }
             }
             Group::Forces => {
-                ForceElement::read(group, kind, &mut fields)?.map(QuantityOwner::Force)
+                pairs::read(kind, &mut fields)?.and_then(|all| of_parts(all.into_iter()))
             }
             _ => Constraint::read(group, kind, &mut fields)?.map(QuantityOwner::Constraint),
         };
@@ -198,7 +199,18 @@ fn linked(blueprint: &Blueprint, name: &str) -> Option<QuantityOwner<Tape>> {
     if let Some((.., element)) = constraints.find(|(known, ..)| known == name) {
         return Some(QuantityOwner::Constraint(element.map(fixed)));
     }
-    let mut forces = blueprint.forces.iter();
-    let (.., element) = forces.find(|(known, ..)| known == name)?;
-    Some(QuantityOwner::Force(if element.follows() { element.clone() } else { element.map(fixed) }))
+    let k = blueprint.forces.iter().position(|(known, ..)| known == name)?;
+    let several = blueprint.further.contains(&k);
+    let (.., element) = &blueprint.forces[k];
+    let element = if element.follows() { element.clone() } else { element.map(fixed) };
+    Some(if several { QuantityOwner::Several(element) } else { QuantityOwner::Force(element) })
+}
+
+/// The owner that a force with these parts is.
+fn of_parts(
+    mut all: impl ExactSizeIterator<Item = ForceElement<Tape>>,
+) -> Option<QuantityOwner<Tape>> {
+    let several = all.len() > 1;
+    let owner = if several { QuantityOwner::Several } else { QuantityOwner::Force };
+    all.next().map(owner)
 }

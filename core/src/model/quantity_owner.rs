@@ -15,6 +15,8 @@ pub(super) enum QuantityOwner<S> {
     Point(PointOn<S>),
     Constraint(Constraint<S>),
     Force(ForceElement<S>),
+    /// The first of several parts of a force, whose quantities have no formulas.
+    Several(ForceElement<S>),
     /// A joint with play.
     Play(Constraint<S>),
 }
@@ -32,6 +34,7 @@ impl<S> QuantityOwner<S> {
             }
             Self::Constraint(element) => QuantityOwner::Constraint(element.map(f)),
             Self::Force(element) => QuantityOwner::Force(element.map(f)),
+            Self::Several(element) => QuantityOwner::Several(element.map(f)),
             Self::Play(joint) => QuantityOwner::Play(joint.map(f)),
         }
     }
@@ -40,7 +43,7 @@ impl<S> QuantityOwner<S> {
         match self {
             Self::Point(_) => &OF_POINT,
             Self::Constraint(element) => element.measured(),
-            Self::Force(element) => element.measured(),
+            Self::Force(element) | Self::Several(element) => element.measured(),
             Self::Play(_) => &Measured::OF_PLAY,
         }
     }
@@ -49,6 +52,7 @@ impl<S> QuantityOwner<S> {
     pub fn has_formulas(&self) -> bool {
         match self {
             Self::Force(element) => element.has_formulas(),
+            Self::Several(_) => false,
             _ => true,
         }
     }
@@ -57,7 +61,7 @@ impl<S> QuantityOwner<S> {
         match self {
             Self::Point(on) => vec![BodyId::GROUND, on.body],
             Self::Constraint(element) => element.bodies(),
-            Self::Force(element) => element.bodies(),
+            Self::Force(element) | Self::Several(element) => element.bodies(),
             Self::Play(joint) => joint.bodies(),
         }
     }
@@ -73,7 +77,7 @@ impl<S: Real> QuantityOwner<S> {
                 values.copy_from_slice(&[p.x, p.y]);
             }
             Self::Constraint(element) => element.measure(at, &mut values),
-            Self::Force(element) => element.measure(at, &mut values),
+            Self::Force(element) | Self::Several(element) => element.measure(at, &mut values),
             Self::Play(joint) => {
                 let play = joint.play(at);
                 let half = joint.backlash().map_or(S::zero(), |own| S::constant(0.5) * own.whole);
@@ -90,7 +94,7 @@ impl<S: Real> QuantityOwner<S> {
             (Self::Point(on), 1) => at(on.s),
             (Self::Point(_), _) => at(Local::zero()),
             (Self::Constraint(element) | Self::Play(element), _) => element.attachment(body),
-            (Self::Force(element), _) => {
+            (Self::Force(element) | Self::Several(element), _) => {
                 at(element.points().map_or(Local::zero(), |points| points[body]))
             }
         }

@@ -29,6 +29,9 @@ impl Source for Linker<'_> {
     }
 
     fn point(&mut self, field: &Field) -> Option<PointOn<Tape>> {
+        if let Some(of) = &self.pairing {
+            return Some(of.point.clone());
+        }
         let text = self.text(field)?;
         let (body, name) = self.split(field, text, "body.point")?;
         let owner = &self.bodies[body.0];
@@ -52,22 +55,11 @@ impl Source for Linker<'_> {
     }
 
     fn curve(&mut self, field: &Field) -> Option<CurveOn<Tape>> {
-        let text = self.text(field)?;
-        let (body, name) = self.split(field, text, "body.curve")?;
-        let owner = &self.bodies[body.0];
-        if let Some((_, found)) = owner.curves.iter().find(|(own, _)| own == name) {
-            // the fault of a faulty curve is reported where the curve is defined
-            return found.clone().map(|curve| CurveOn { body, curve });
+        if let Some(of) = &self.pairing {
+            return Some(of.curve.clone());
         }
-        let hint = self.suggests().then(|| {
-            let names: Vec<&str> = owner.curves.iter().map(|(n, _)| n.as_str()).list();
-            match owner.point(name) {
-                Some(_) => Some(format!("'{name}' is a point of {}", owner.name)),
-                None => did_you_mean(name, &names, &format!("curves of {}", owner.name)),
-            }
-        });
-        let message = format!("body '{}' has no curve '{name}'", owner.name);
-        self.report(field, message, hint.flatten())
+        let text = self.text(field)?;
+        self.curve_named(field, text)
     }
 
     fn coordinate(&mut self, field: &Field) -> Option<Followed<Tape>> {
@@ -126,6 +118,10 @@ impl Source for Linker<'_> {
     }
 
     fn number(&mut self, field: &Field) -> Option<Tape> {
+        if let Some(of) = self.pairing.clone().filter(|_| field.name == "radius") {
+            let written = self.formula(field, Reach::Parameters);
+            return of.radius.or(written.map(|radius| radius.plus(of.rounding)));
+        }
         self.formula(field, Reach::Parameters)
     }
 
@@ -238,6 +234,9 @@ impl Source for Linker<'_> {
     }
 
     fn word(&mut self, field: &Field, words: &[&str]) -> Option<usize> {
+        if let (Some(of), "side") = (&self.pairing, field.name) {
+            return Some(of.side as usize);
+        }
         let word = match (self.entry.get(field.name), field.default) {
             (None, Some(Default::Body(word))) => word,
             _ => self.text(field)?,

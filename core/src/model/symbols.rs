@@ -33,8 +33,7 @@ impl Model {
         for (name, _, formula) in blueprint.constraints.iter() {
             found.push((name.as_str(), formula.map(value).symbols()));
         }
-        let listed = blueprint.forces.len() - blueprint.companions.len();
-        for (name, _, formula) in &blueprint.forces[..listed] {
+        for (name, _, formula) in &blueprint.forces[..self.listed_forces().len()] {
             // the pieces of a beam are drawn as one
             let name = if formula.in_files() { name.as_str() } else { beam_of(name) };
             found.push((name, formula.map(value).symbols()));

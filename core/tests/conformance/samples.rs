@@ -15,7 +15,7 @@ use kempe::elements::test_elements::{
 use kempe::elements::QuantityKind;
 use kempe::elements::{
     catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveFormula, CurveOn,
-    CurvePoints, ForceElement, Frame, JointId, Linearized, Moving, PointOn, Side,
+    CurvePoints, ForceElement, Frame, JointId, Linearized, Moving, PointOn, Polygon, Side,
 };
 use kempe::expression::{Expression, FormulaValues, Names, Symbol, Tape};
 use kempe::math::{Interpolation, Local, Motion, Pose, Real, Twist, Vec2};
@@ -30,6 +30,10 @@ pub fn curve(form: &str) -> CurveOn {
     let curve = match form {
         "circle" => Curve::Circle { center: local(0.3, -0.2), radius: 0.8 },
         "line" => Curve::Line { from: local(-0.4, 0.1), to: local(0.9, 0.7) },
+        "polygon" => {
+            let corners = [[-0.9, -0.5], [0.6, -0.7], [0.8, 0.4], [-0.2, 0.9]];
+            Curve::Polygon(Polygon::new(&corners.map(|[x, y]| local(x, y))))
+        }
         "points" => {
             let points = [[1.0, 0.0], [0.8, 0.9], [-0.2, 1.1], [-1.2, 0.1], [0.1, -0.8]];
             let points = points.map(|[x, y]| local(x, y)).to_vec();

@@ -33,13 +33,13 @@ pub fn stops() -> Vec<ForceElement> {
 
 pub fn contacts() -> Vec<ForceElement> {
     let mut all = Vec::new();
-    for form in ["circle", "line", "points", "formula"] {
-        for side in [Side::Right, Side::Left] {
+    for form in ["circle", "line", "points", "formula", "polygon"] {
+        for side in sides(form) {
             all.push(ForceElement::Contact(Contact {
                 i: on(1, 0.2, -0.4),
                 curve: Rim::new(curve(form)),
                 radius: 0.3,
-                side,
+                side: *side,
                 stiffness: Some(1.0),
                 exponent: 1.5,
                 damping: 0.3,
@@ -53,6 +53,8 @@ pub fn contacts() -> Vec<ForceElement> {
                 restitution: None,
                 rest_speed: 1e-9,
                 wear: 0.4,
+                curves: (),
+                sides: (),
             }));
         }
     }
@@ -85,16 +87,24 @@ fn pin_in_bush((clearance, of_cylinders): (f64, bool)) -> ForceElement {
     })
 }
 
+/// The sides of a curve; a polygon is touched from outside.
+fn sides(form: &str) -> &'static [Side] {
+    match form {
+        "polygon" => &[Side::Right],
+        _ => &[Side::Right, Side::Left],
+    }
+}
+
 /// The friction of contacts that slides and sticks.
 fn rubbing_contacts() -> Vec<ForceElement> {
     let mut all = Vec::new();
-    for form in ["circle", "line"] {
-        for side in [Side::Right, Side::Left] {
+    for form in ["circle", "line", "polygon"] {
+        for side in sides(form) {
             all.push(ForceElement::ContactFriction(ContactFriction {
                 i: on(1, 0.2, -0.4),
                 curve: Rim::new(curve(form)),
                 radius: 0.3,
-                side,
+                side: *side,
                 stiffness: Some(1.0),
                 exponent: 1.5,
                 damping: 0.3,
@@ -115,7 +125,12 @@ pub fn resting() -> Vec<Constraint> {
         let curve = Rim::new(curve(form));
         Constraint::Resting(Resting { i: on(1, 0.2, -0.4), curve, radius: 0.3, side })
     };
-    vec![of("circle", Side::Left), of("line", Side::Right), of("points", Side::Right)]
+    vec![
+        of("circle", Side::Left),
+        of("line", Side::Right),
+        of("points", Side::Right),
+        of("polygon", Side::Right),
+    ]
 }
 
 /// All equations of contacts.

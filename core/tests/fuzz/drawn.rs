@@ -224,6 +224,10 @@ impl Drawn<'_> {
             Shape::Units => Value::List(vec![text("m"), text("rad")]),
             Shape::LawPair | Shape::Laws => Value::List(vec![self.law(), self.law()]),
             Shape::Points => self.points(),
+            Shape::TwoTexts => {
+                let curve = |_| text(&format!("{}.A", self.owner()));
+                Value::List((0..2).map(curve).collect())
+            }
             Shape::Names | Shape::Columns => Value::List(vec![text("A"), text("B")]),
             Shape::Numbers => Value::List((0..4).map(|k| Value::Number(f64::from(k))).collect()),
             Shape::Joint | Shape::Name => {

@@ -108,10 +108,8 @@ impl Dice {
             Shape::Curves | Shape::Shapes | Shape::Outline | Shape::Corners => {
                 self.of_body(shape, used)
             }
-            Shape::Body | Shape::Point | Shape::Curve | Shape::Coordinate => {
-                Value::Text(self.text())
-            }
-            Shape::Joint | Shape::Name => Value::Text(self.text()),
+            Shape::Body | Shape::Point | Shape::Curve => Value::Text(self.text()),
+            Shape::Coordinate | Shape::Joint | Shape::Name => Value::Text(self.text()),
             Shape::Section => Value::Table(vec![("rectangle".to_string(), self.pair())]),
             Shape::Number | Shape::Law => self.formula(),
             Shape::Pair | Shape::LawPair => self.pair(),
@@ -125,7 +123,9 @@ impl Dice {
             Shape::NameList => {
                 Value::List((0..self.roll(3)).map(|_| Value::Text(self.name(used))).collect())
             }
-            Shape::Quantities => Value::List(vec![Value::Text(self.text())]),
+            Shape::Quantities | Shape::TwoTexts => {
+                Value::List((0..2).map(|_| Value::Text(self.text())).collect())
+            }
             Shape::Events => self.events(used),
             Shape::Values => Value::Table(
                 (0..1 + self.roll(3)).map(|_| (self.name(used), self.formula())).collect(),

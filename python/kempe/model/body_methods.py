@@ -73,8 +73,8 @@ class BodyMethods:
             curves: named curves in the body's frame, for joints on curves, each in one of the forms
                 ``{"x": "…u…", "y": "…u…", "range": (a, b), "periodic": False}``,
                 ``{"polar": "r(u)"}``, ``{"points": [(x, y), …], "periodic": False,
-                "interpolation": "quintic"}``, ``{"circle": (x, y, r)}`` and
-                ``{"line": [(x, y), (x, y)]}``.
+                "interpolation": "quintic"}``, ``{"circle": (x, y, r)}``,
+                ``{"line": [(x, y), (x, y)]}`` and, for contacts, ``{"polygon": [(x, y), …]}``.
             shapes: homogeneous pieces that give mass, inertia and mass centre: ``{"type": "rod",
                 "length": L}``, ``{"type": "plate", "width": w, "height": h}``, ``{"type": "disc",
                 "radius": r}``, ``{"type": "ring", "inner": a, "outer": b}`` or ``{"type":

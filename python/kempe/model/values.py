@@ -326,5 +326,6 @@ CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "condition": reference,
     "name_list": listed_words,
     "quantities": listed_words,
+    "two_texts": listed_words,
     "values": numbers,
 }

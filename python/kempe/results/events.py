@@ -85,6 +85,8 @@ def events(solution: Solution) -> Mapping[str, EventTimes]:
     """
     found = {}
     for name, t, q, v, z, impulses in solution._run.events:
+        if name in found:
+            continue  # a further part of a contact, whose events are those of the first part
         at = zip(t, q, v, z, strict=True)
         states = tuple(solution._state_before(float(t), *of) for t, *of in at)
         found[name] = EventTimes(name, fixed(t), states, fixed(impulses))

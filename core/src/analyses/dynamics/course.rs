@@ -273,6 +273,7 @@ impl PhasedRun {
         for k in &settled.hits {
             let index = index(*k, 0);
             run.add_event(&base.layout, index, t, &before);
+            let index = run.listed(index);
             run.events[index].impulses.extend(&settled.impulses);
         }
         for (k, of) in &settled.changed {

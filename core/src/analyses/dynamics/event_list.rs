@@ -121,7 +121,7 @@ impl Watch for InStep<'_, '_> {
         let known = &mut self.known;
         let mut clearance = |force: usize| {
             let key = (force, span.map(f64::to_bits));
-            *known.entry(key).or_insert_with(|| part.gap(force, None))
+            *known.entry(key).or_insert_with(|| part.apart(force, None))
         };
         match self.list.watched[index].function {
             EventFunction::Condition(condition) => condition.bounds(&part),

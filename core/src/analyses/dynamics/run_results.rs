@@ -106,8 +106,16 @@ pub struct Run {
 }
 
 impl Run {
+    /// The index at which an event is listed: that of the first event with its name, because the parts of a contact have
+    /// one name.
+    pub(super) fn listed(&self, index: usize) -> usize {
+        let Some(wanted) = self.events.get(index) else { return index };
+        self.events.iter().position(|event| event.name == wanted.name).unwrap_or(index)
+    }
+
     /// Adds a time of an event.
     pub(super) fn add_event(&mut self, layout: &StateLayout, index: usize, t: f64, y: &[f64]) {
+        let index = self.listed(index);
         if let Some(event) = self.events.get_mut(index) {
             event.states.add(layout, t, y);
         }

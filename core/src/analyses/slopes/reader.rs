@@ -6,7 +6,8 @@ use super::motion::MotionSlopes;
 use super::triggers::Trigger;
 use crate::analyses::measures::Measure;
 use crate::analyses::signals::Seen;
-use crate::equations::forces::{self, Acting};
+use crate::equations::actions;
+use crate::equations::forces::Acting;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::equations::Workspace;
 use crate::math::{Dual, Listed, Real};
@@ -307,7 +308,7 @@ impl<'a> Reader<'a> {
         dissipation.append_each(model, &mut state, |place| {
             let acting = Acting { z, lam: Some(workspace.lam()), t };
             let force = dissipation.forces[place];
-            let power = forces::dissipated(model, force, &workspace.motions, acting);
+            let power = actions::dissipated(model, force, &workspace.motions, acting);
             along((&dissipation.values[place], &power))
         });
         let at = Dual::variable(t, 0);

@@ -94,7 +94,7 @@ impl Presses for ClearanceJoint {
         [e.i.body, e.j.body]
     }
 
-    fn is_closed_form<S>(_: &ClearanceJoint<S>) -> bool {
+    fn has_formulas<S>(_: &ClearanceJoint<S>) -> bool {
         true
     }
 

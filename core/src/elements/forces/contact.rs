@@ -29,9 +29,9 @@ element! {
     /// bodies separate with -restitution times the rate of their approach, or rest on each other.
     Contact, "contact" {
         /// Point of body i, as `body.point`.
-        i: point,
+        i: point_or_curves,
         /// Curve of body j, as `body.curve`.
-        curve: rim,
+        curve: rim_or_curves,
         /// Radius of the circle around the point; 0 for the point itself.
         radius: number [m] = 0.0,
         /// Side of the curve on which the point lies, seen in the direction of growing u.
@@ -65,6 +65,10 @@ element! {
         /// Worn volume for each newton and each metre of sliding (Archard); for compliant contacts. The
         /// states sliding_distance and wear_volume then begin at 0.
         wear: number [m^2/N] = 0.0,
+        /// Two curves that touch, of body i and of body j, in place of `i`, `curve` and `side`.
+        curves: two_texts,
+        /// The sides of the two curves on which the other one lies; right if absent.
+        sides: two_texts,
     }
 }
 
@@ -113,8 +117,8 @@ impl Presses for Contact {
         [e.i.body, e.curve.on.body]
     }
 
-    fn is_closed_form<S>(e: &Contact<S>) -> bool {
-        e.curve.is_closed_form()
+    fn has_formulas<S>(e: &Contact<S>) -> bool {
+        e.curve.has_formulas()
     }
 
     fn is_compliant<S>(e: &Contact<S>) -> bool {
@@ -138,7 +142,8 @@ impl Presses for Contact {
             return Some(("radius", "must not be negative".to_string()));
         }
         let curve = &e.curve.on.curve;
-        let cusp = curve.fault().is_none().then(|| contact::cusp(curve)).flatten();
+        let searched = curve.fault().is_none() && !e.curve.is_closed_form();
+        let cusp = searched.then(|| contact::cusp(curve)).flatten();
         cusp.map(|message| ("curve", message))
     }
 }

@@ -181,8 +181,16 @@ impl Force for ContactFriction {
         [e.kinetic, e.r#static]
     }
 
-    fn holding(e: &ContactFriction<Tape>, _: f64, value: f64) -> Option<Constraint<Tape>> {
-        let (i, curve, radius) = (e.i.clone(), e.curve.clone(), e.radius.clone());
+    fn side<S: Real>(e: &ContactFriction<S>, at: &Situation<'_, S>) -> f64 {
+        e.touch().side(at)
+    }
+
+    fn margin<S: Real>(e: &ContactFriction<S>, at: &Situation<'_, S>) -> Option<S> {
+        e.touch().margin(at)
+    }
+
+    fn holding(e: &ContactFriction<Tape>, side: f64, value: f64) -> Option<Constraint<Tape>> {
+        let (i, curve, radius) = (e.i.clone(), e.curve.supporting(side), e.radius.clone());
         let value = Tape::from(value);
         let equation = ContactSticking { i, curve, radius, side: e.side, value };
         Some(Constraint::ContactSticking(equation))

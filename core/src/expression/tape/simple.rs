@@ -18,6 +18,16 @@ impl Tape {
         Self { code, operands: 2, symbols: vec![symbol], ..Self::default() }
     }
 
+    /// The sum of a formula and a number.
+    pub fn plus(mut self, by: f64) -> Self {
+        if let Some(own) = self.constant() {
+            return Self::from(own + by);
+        }
+        self.operands = self.operands.max(2);
+        self.code.extend([Instruction::Constant(by), Instruction::Binary(Binary::Add)]);
+        self
+    }
+
     /// The law position + rate (t - t0).
     pub fn line(position: f64, rate: f64, t0: f64) -> Self {
         let add = Instruction::Binary(Binary::Add);

@@ -118,7 +118,7 @@ impl Contacts {
         let mut workspace = workspace_at((model, &ModelCache::default()), t, [q, v, z]);
         let rates = [place.gap_rates(model, contacts), place.thresholds(model, &rubs)].concat();
         let (mut all, mut gradients) = (Vec::new(), Vec::new());
-        let forces = contacts.iter().copied().zip(sides.iter().map(|side| -side));
+        let forces = contacts.iter().copied().zip(sides.iter().map(|side| -side.signum()));
         let forces = forces.chain(rubs.iter().map(|k| (*k, 1.0)));
         for ((force, sign), rate) in forces.zip(rates) {
             let row = closed.forces[force].held_row.expect("it holds");

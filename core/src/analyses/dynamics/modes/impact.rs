@@ -42,7 +42,7 @@ impl Impact {
     pub fn pushes(&self) -> Vec<f64> {
         let push = |k: &usize| match (self.closed.forces[*k].mode, self.closed.forces[*k].held_row)
         {
-            (Mode::Holds(side), Some(row)) => side * self.found[row],
+            (Mode::Holds(side), Some(row)) => side.signum() * self.found[row],
             _ => 0.0,
         };
         self.contacts.iter().map(push).list()

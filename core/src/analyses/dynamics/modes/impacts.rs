@@ -252,7 +252,7 @@ fn hit(
             let row = closed.forces[*k].held_row.expect("it holds");
             let e = own(least.filter(|_| common).unwrap_or(*k));
             // the gap of an upper limit grows as its coordinate falls
-            rates[row] = side * (1.0 + e) * rate;
+            rates[row] = side.signum() * (1.0 + e) * rate;
         }
         let jump = workspace.jump(&closed, t, q, &rates);
         let [dv, found] = jump.map_err(|breakdown| Failure::at_state(&closed, t, q, breakdown))?;

@@ -30,7 +30,7 @@ impl Watch for Margins<'_> {
         let part = StepPart::new(self.model, path, span, &self.pieces);
         let sigma = match &self.switching.forms[index] {
             SwitchForm::Law(tape) => part.switch(tape, switch),
-            SwitchForm::Clearance(force, place) => -part.gap(*force, Some(*place))?,
+            SwitchForm::Clearance(force, place) => -part.apart(*force, Some(*place))?,
             // it is 1 where the bodies are apart, so that only a contact that is held has to be bounded
             SwitchForm::Pushes(..)
                 if self.pieces[switch - 1] < 0.0 && self.pieces[switch] > 0.0 =>
