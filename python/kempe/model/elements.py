@@ -977,10 +977,13 @@ class Contact(Element):
         rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
         wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
             contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
+        curves: Two curves that touch, of body i and of body j, in place of `i`, `curve` and
+            `side`.
+        sides: The sides of the two curves on which the other one lies; right if absent.
     """
 
-    i: str
-    curve: str
+    i: str | None = None
+    curve: str | None = None
     radius: Number = 0.0
     side: Literal["right", "left"] = "right"
     stiffness: Number | None = None
@@ -996,6 +999,8 @@ class Contact(Element):
     restitution: Number | None = None
     rest_speed: Number = 1e-09
     wear: Number = 0.0
+    curves: Words | None = None
+    sides: Words | None = None
     section: ClassVar[str] = "forces"
     kind: ClassVar[str] = "contact"
     value_kinds: ClassVar[Mapping[str, str]] = {
@@ -1016,6 +1021,8 @@ class Contact(Element):
         "restitution": "number",
         "rest_speed": "number",
         "wear": "number",
+        "curves": "two_texts",
+        "sides": "two_texts",
     }
 
 
@@ -1816,8 +1823,8 @@ class ElementMethods:
     def contact(
         self,
         name: str,
-        i: str,
-        curve: str,
+        i: str | None = None,
+        curve: str | None = None,
         *,
         radius: Number = 0.0,
         side: Literal["right", "left"] = "right",
@@ -1834,6 +1841,8 @@ class ElementMethods:
         restitution: Number | None = None,
         rest_speed: Number = 1e-09,
         wear: Number = 0.0,
+        curves: Words | None = None,
+        sides: Words | None = None,
     ) -> Contact:
         """Add an element of type ``contact`` and return it.
 
@@ -1872,6 +1881,9 @@ class ElementMethods:
             rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
             wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
                 contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
+            curves: Two curves that touch, of body i and of body j, in place of `i`, `curve` and
+                `side`.
+            sides: The sides of the two curves on which the other one lies; right if absent.
         """
         return self._add(
             Contact(
@@ -1893,5 +1905,7 @@ class ElementMethods:
                 restitution=restitution,
                 rest_speed=rest_speed,
                 wear=wear,
+                curves=curves,
+                sides=sides,
             )
         )
