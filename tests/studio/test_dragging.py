@@ -18,7 +18,9 @@ def points(one: Studio) -> list[tuple[str, float, float]]:
     """A point for each place of the drawing, with its coordinates."""
     found: dict[tuple[float, float], tuple[str, float, float]] = {}
     for name, body in one.tree()["bodies"].items():
-        own = [*body.get("points", {}), *body.get("ends", []), *body.get("through", {})]
+        beam = body.get("type") == "beam"
+        own = [*body.get("points", {}), *body.get("ends", ["A", "B"] if beam else [])]
+        own += [] if beam else [*body.get("through", {})]  # the shape of a beam
         for point in own or ["P"]:  # a point mass has one point
             full = f"{name}.{point}"
             x, y = one.quantity(f"{full}.x"), one.quantity(f"{full}.y")

@@ -40,7 +40,10 @@ function isDrawn({ fields }: Type): boolean {
 
 function toolOf(group: Group, type: Type): Tool {
   const placing = group === "bodies" ? placingOf(type) : null;
-  const references = type.fields.filter(({ required }) => required).flatMap(chosenBy);
+  // a contact of two curves is written in the text; the tool makes one of a point and a curve
+  const either = type.fields.some(({ shape }) => shape === "two_texts");
+  const clicked = (field: Field) => field.required || (either && isReference(field));
+  const references = type.fields.filter(clicked).flatMap(chosenBy);
   const stem = texts.stems[type.name] ?? type.name.replaceAll("_", "");
   return { group, type, label: texts.labels[type.name] ?? spoken(type.name), stem, references, placing };
 }

@@ -95,6 +95,7 @@ const USEFUL: Record<string, (scale: Scale, field: Field) => Value | undefined> 
   offset: ({ offset }) => (offset ? digits(offset, 9) : undefined),
   radius: ({ beside, size, pin }, field) =>
     field.required ? digits(beside || size / 20, 6) : pin && isAbsent(field) ? digits(size / 50, 1) : undefined,
+  clearance: ({ size }) => digits(size / 400, 1),
   kinetic: () => 0.2,
   torque: ({ weight, size }) => digits((weight * size) / 10, 1),
   force: ({ weight }, { shape }) => (shape === "law_pair" ? [digits(weight / 5, 1), 0] : digits(weight / 5, 1)),

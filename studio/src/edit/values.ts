@@ -22,7 +22,19 @@ function notation(value: Value): string {
   return typeof value === "string" ? JSON.stringify(value) : String(value);
 }
 
-const LISTS = ["pair", "triple", "law_pair", "laws", "names", "units", "numbers", "columns", "name_list", "quantities", "two_texts"];
+const LISTS = [
+  "pair",
+  "triple",
+  "law_pair",
+  "laws",
+  "names",
+  "units",
+  "numbers",
+  "columns",
+  "name_list",
+  "quantities",
+  "two_texts",
+];
 
 /** Whether a field holds a list of short values, which is typed as "a, b". */
 export function isList({ shape }: Field): boolean {
