@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import kempe as kp
 import numpy as np
 import pytest
 from house.places import ROOT
@@ -15,6 +16,9 @@ EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_an_example_runs(path: Path) -> None:
     for solution in results(path.stem).values():
+        if not isinstance(solution, kp.Solution):
+            assert solution.complete  # the path of a structure reaches its end
+            continue
         assert solution.success
         assert solution.drift.position.max() < 1e-6
         assert np.abs(solution.energy.balance).max() < 1e-5

@@ -91,7 +91,12 @@ def loose_pin(of: Units) -> Made:
     s, v = of.size, of.size * of.rate
     weight = of.mass * v * of.rate
     m = of.model(
-        R=(0.3, s), gap=(0.05, s), k=(9000, weight / s), c=(0.2, 1 / v), mu=(0.1, 1), most=(0.2, 1)
+        R=(0.3, s),
+        gap=(0.05, s),
+        k=(9000, weight / s),
+        c=(0.2, 1 / v),
+        mu=(0.1, 1),
+        most=(0.2, 1),
     )
     m.ground.points(O=(0, 0))
     of.disc(m, "disc", {"C": (0, 0.4 * s)}, center=(0.03 * s, 0.01 * s))
@@ -142,4 +147,134 @@ def tumbling(of: Units) -> Made:
     )
 
 
-CONTACTS: list[Maker] = [touching, rolling_over, bouncing, loose_pin, tumbling]
+def cylinders(of: Units) -> Made:
+    """A roller falls on a drum; the law of the force is that of two cylinders."""
+    s, v = of.size, of.size * of.rate
+    weight = of.mass * v * of.rate
+    m = of.model(
+        r=(0.2, s), E=(4000, weight / s**2), nu=(0.3, 1), b=(0.1, s), c=(0.3, 1 / v), drum=(2, s)
+    )
+    m.ground.curves(floor={"circle": (0, "-drum", "drum")})
+    of.disc(m, "ball", {"C": (0, 0)}, center=(0.03 * s, 0.01 * s))
+    m.contact(
+        "touch",
+        "ball.C",
+        "ground.floor",
+        radius="r",
+        law="hertz",
+        young="E",
+        poisson="nu",
+        width="b",
+        damping="c",
+    )
+    start = {"ball.x": of.near(0.1) * s, "ball.y": 0.4 * s, "ball.vx": 0.5 * v, "ball.angle": 0.0}
+    measures = ["ball.x.final", "ball.y.final", "ball.omega.final", "touch.gap.final"]
+    return Made(m, measures, start, end=1.0, changes=True)
+
+
+def worn_pin(of: Units) -> Made:
+    """A pendulum whose pin wears its bush."""
+    s, v = of.size, of.size * of.rate
+    weight = of.mass * v * of.rate
+    m = of.model(
+        R=(0.3, s),
+        gap=(0.05, s),
+        E=(4000, weight / s**2),
+        nu=(0.3, 1),
+        b=(0.1, s),
+        c=(0.3, 1 / v),
+        mu=(0.1, 1),
+        v0=(0.1, v),
+        w=(0.1, s**2 / of.force),
+    )
+    m.ground.points(O=(0, 0))
+    of.disc(m, "disc", {"C": (0, 0.4 * s)}, center=(0.03 * s, 0.01 * s))
+    m.clearance(
+        "pin",
+        "ground.O",
+        "disc.C",
+        radius="R",
+        clearance="gap",
+        law="hertz",
+        young="E",
+        poisson="nu",
+        width="b",
+        damping="c",
+        friction="mu",
+        velocity="v0",
+        wear="w",
+    )
+    start = {
+        "disc.x": of.near(0.02) * s,
+        "disc.y": -0.44 * s,
+        "disc.vx": 0.5 * v,
+        "disc.angle": 0.0,
+    }
+    measures = ["disc.x.final", "disc.omega.final", "pin.gap.final", "pin.wear_volume.final"]
+    return Made(m, measures, start, end=1.0, changes=True)
+
+
+def soft_pin(of: Units) -> Made:
+    """A pendulum whose pin presses into its bush, with an exponent."""
+    s, v = of.size, of.size * of.rate
+    weight = of.mass * v * of.rate
+    m = of.model(R=(0.3, s), gap=(0.05, s), k=(30000, weight / s**1.5), n=(1.5, 1), c=(0.2, 1 / v))
+    m.ground.points(O=(0, 0))
+    of.disc(m, "disc", {"C": (0, 0.4 * s)}, center=(0.03 * s, 0.01 * s))
+    m.clearance(
+        "pin",
+        "ground.O",
+        "disc.C",
+        radius="R",
+        clearance="gap",
+        stiffness="k",
+        exponent="n",
+        damping="c",
+    )
+    start = {
+        "disc.x": of.near(0.02) * s,
+        "disc.y": -0.44 * s,
+        "disc.vx": 0.5 * v,
+        "disc.angle": 0.0,
+    }
+    return Made(
+        m, ["disc.x.final", "disc.omega.final", "pin.gap.final"], start, end=1.0, changes=True
+    )
+
+
+def bouncing_pin(of: Units) -> Made:
+    """A pendulum whose pin falls from the top of its bush and bounces."""
+    s, v = of.size, of.size * of.rate
+    m = of.model(R=(0.3, s), gap=(0.1, s), e=(0.7, 1))
+    m.ground.points(O=(0, 0))
+    of.disc(m, "disc", {"C": (0, 0.4 * s)}, center=(0.03 * s, 0.01 * s))
+    m.clearance(
+        "pin",
+        "ground.O",
+        "disc.C",
+        radius="R",
+        clearance="gap",
+        restitution="e",
+        rest_speed=1e-9 * v,
+    )
+    start = {
+        "disc.x": of.near(0.02) * s,
+        "disc.y": -0.36 * s,
+        "disc.vx": 0.1 * v,
+        "disc.angle": 0.0,
+    }
+    measures = ["disc.x.final", "disc.y.final", "disc.omega.final", "pin.gap.final"]
+    return Made(m, measures, start, end=0.8, changes=True)
+
+
+CONTACTS: list[Maker] = [
+    touching,
+    rolling_over,
+    bouncing,
+    loose_pin,
+    tumbling,
+    cylinders,
+    worn_pin,
+    soft_pin,
+    bouncing_pin,
+]

@@ -19,8 +19,9 @@ FOUR_BAR = (ROOT / "examples" / "four_bar.toml").read_text("utf-8")
 HEAD = FOUR_BAR.partition("[analyses.release]")[0]
 #: Words of a remedy.
 REMEDY = re.compile(
-    r"did you mean|must be|the \w[\w ]* are|there (is|are)|it may be|write |use |give |name |add |"
-    r"remove |make |check |correct|choose|declare|save it|needs|cannot|belongs in|point|missing",
+    r"did you mean|must be|the \w[\w ]* are|there (is|are)|it may (be|have)|write |use |give |"
+    r"name |add |remove |make |check |correct|choose|declare|save it|needs|cannot|belongs in|"
+    r"point|missing",
 )
 
 

@@ -61,7 +61,8 @@ def sliding() -> kp.Model:
 def test_every_example_is_balanced() -> None:
     for path in EXAMPLES:
         for solution in results(path.stem).values():
-            assert solution.newton_euler.largest <= BALANCED, path.stem
+            if isinstance(solution, kp.Solution):
+                assert solution.newton_euler.largest <= BALANCED, path.stem
 
 
 STARTS: dict[str, tuple[Callable[[], kp.Model], dict[str, float]]] = {

@@ -128,7 +128,7 @@ def joints_and_drivers() -> dict[str, dict[str, Any]]:
 
 #: Wheels, whose equations are taken modulo a turn, and joints on curves, whose equations name them.
 #: The conformance tests of the core compare their printed equations with their numbers.
-OTHERWISE = {"gear", "belt", "point_on_curve", "roller_on_curve", "flat_on_curve"}
+OTHERWISE = {"clearance", "gear", "belt", "point_on_curve", "roller_on_curve", "flat_on_curve"}
 
 
 def sample(table: dict[str, Any]) -> dict[str, Any]:
