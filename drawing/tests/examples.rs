@@ -2,7 +2,7 @@
 
 use kempe::case::{self, Format};
 use kempe::elements::Mark;
-use kempe::model::Model;
+use kempe::model::{Model, NODE};
 use kempe::{assemble, build, State};
 use kempe_drawing::display::{place, Item, Kind, Request, View};
 use kempe_drawing::scene::{efforts, Scene};
@@ -54,7 +54,8 @@ fn every_example_is_drawn_within_its_view() {
         let Some((made, poses, view, list)) = drawn(&path) else { continue };
         count += 1;
         let all: Vec<Pose> = std::iter::once([0.0; 3]).chain(poses).collect();
-        for body in &made.bodies[1..] {
+        // the nodes of a beam are drawn as one body
+        for body in made.bodies[1..].iter().filter(|body| body.kind != NODE) {
             assert!(list.iter().any(|item| item.of == body.name || !body.curves.is_empty()));
         }
         for item in &list {
