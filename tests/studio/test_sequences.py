@@ -107,7 +107,7 @@ def test_each_analysis_gives_the_numbers_of_python(one: Studio, tmp_path: Path, 
         assert one.page.locator("#analysis").input_value() == analysis
         assert ran["error"] is None
         if hasattr(result, "folds") and len(ran["positions"]) == 1:
-            continue  # a remark tells that the positions are not drawn
+            continue  # a remark says that the positions are not drawn
         if not isinstance(result, kp.Solution):
             native = np.array([float(result.final[one]) for one in names])
             found = np.array(ran["positions"][-1]["pose"]["q"])
