@@ -241,6 +241,8 @@ REFUSED = [
     ({"curves": ["part.rim", "ground.rom"]}, "did you mean 'rim'"),
     ({"curves": ["part.disc", "ground.rim"], "radius": 0.1}, "own radius"),
     ({"curves": ["part.rim", "ground.rim"], "restitution": None, "stiffness": 1e4}, "radius"),
+    ({"curves": ["part.rim", "ground.rim"], "wear": 1e-9}, "at one place"),
+    ({"curves": ["part.rim", "ground.rim"], "law": "hertz", "young": 1e9}, "at one place"),
     ({"sides": ["right", "right"]}, "curves"),
     ({}, "'i' is missing"),
     ({"i": "part.P", "curve": "ground.rim", "side": "left"}, "outside"),

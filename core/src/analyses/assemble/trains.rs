@@ -2,7 +2,7 @@
 //!
 //! The equations of a closed train depend on each other, Σ y_k Φ_q,k = 0, so that it closes only if Σ y_k Φ_k = 0. The
 //! phases x_k of the wheels are changed for this: Σ y_k (Φ_k - x_k) = 0. Without teeth, x_k is any number. With teeth,
-//! it is a whole number n_k of pitches. PitchColumn operations with integers, as in Euclid's algorithm, bring the equations
+//! it is a whole number n_k of pitches. Column operations with integers, as in Euclid's algorithm, bring the equations
 //! for n to triangular form (Hermite), which shows whether there is a solution.
 
 use super::attempt::{close_from, given, internal, Closed, MOST_TRIES};
