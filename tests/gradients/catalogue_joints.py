@@ -154,27 +154,6 @@ def gears(of: Units) -> Made:
     return Made(m, measures, {"arm.angle": of.near(0.6), "arm.omega": of.rate}, end=1.5)
 
 
-def crossed_belt(of: Units) -> Made:
-    """Two wheels with a belt."""
-    s = of.size
-    m = of.model(r1=(0.5, s), r2=(0.2, s), slip=(0.05, s))
-    m.ground.points(O=(0, 0), P=(s, 0.1 * s))
-    of.disc(m, "one", {"O": (0, 0)}, center=(0.2 * s, 0))
-    of.disc(m, "two", {"P": (0, 0)}, center=(0.03 * s, 0.02 * s))
-    m.revolute("O", "ground.O", "one.O")
-    m.revolute("P", "ground.P", "two.P")
-    m.belt(
-        "belt",
-        "one.O",
-        "two.P",
-        radii=("r1", "r2"),
-        offset="slip",
-        crossed=bool(of.draw.integers(2)),
-    )
-    measures = ["two.angle.final", "belt.tangential.max", "O.force.final", "belt.tangential.final"]
-    return Made(m, measures, {"one.angle": of.near(0.5), "one.omega": of.rate}, end=2.0)
-
-
 def rack_and_pinion(of: Units) -> Made:
     """A rack slides down an incline and turns a pinion."""
     s = of.size
@@ -229,6 +208,20 @@ def rolling_wheel(of: Units) -> Made:
     m.rolling("roll", "ground.L", "wheel.C", radius="r", axis="tilt", offset="slip")
     measures = ["wheel.P.y.final", "roll.tangential.max", "roll.force.final", "wheel.omega.max"]
     return Made(m, measures, {"roll.displacement": s, "roll.rate": of.near(1) * s * of.rate})
+
+
+def slipping_wheel(of: Units) -> Made:
+    """A wheel with its mass centre beside its axis is thrown along a line, slides and rolls."""
+    s = of.size
+    m = of.model(r=(0.5, s), tilt=(-0.1, 1), e=(0.05, s), mu=(0.3, 1), mus=(0.4, 1))
+    m.ground.points(L=(0.1 * s, 0.2 * s))
+    of.disc(m, "wheel", {"C": (0, 0)}, center=("e", 0))
+    m.rolling("roll", "ground.L", "wheel.C", radius="r", axis="tilt", friction="mu", static="mus")
+    start = {"roll.displacement": s, "roll.rate": of.near(1) * s * of.rate}
+    start |= {"wheel.angle": 0.2, "wheel.omega": 0.0}
+    measures = ["wheel.x.final", "roll.slipped.final", "roll.force.final", "wheel.omega.final"]
+    measures += ["roll.tangential.final"]
+    return Made(m, measures, start, end=0.8, changes=True)
 
 
 def bead(of: Units) -> Made:
@@ -349,10 +342,10 @@ JOINTS: list[Maker] = [
     yoke,
     driven_yoke,
     gears,
-    crossed_belt,
     rack_and_pinion,
     loose_teeth,
     rolling_wheel,
+    slipping_wheel,
     bead,
     roller,
     flat,

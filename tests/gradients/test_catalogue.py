@@ -8,9 +8,10 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
+from gradients.catalogue_belts import BELTS
 from gradients.catalogue_contacts import CONTACTS, bouncing_pin
 from gradients.catalogue_forces import FORCES
-from gradients.catalogue_joints import JOINTS, Made, Maker, Units, slide_on_a_bar
+from gradients.catalogue_joints import JOINTS, Made, Maker, Units, slide_on_a_bar, slipping_wheel
 from gradients.test_random import differences
 from kempe.model.catalogue import declared
 from sizes import count
@@ -20,10 +21,11 @@ EXACT = kp.DOP853(rtol=1e-12, atol=1e-14)
 STEPS = (1e-3, 2e-3, 4e-3), (2e-5, 4e-5, 8e-5)
 #: Largest error of a slope, as a part of its scale, and that of most slopes.
 MOST, USUAL = 1e-5, 1e-7
-ALL = [*JOINTS, *FORCES, *CONTACTS]
+ALL = [*JOINTS, *BELTS, *FORCES, *CONTACTS]
 #: Numbers on which nothing depends: axes of a revolute joint turn the frame of its reaction, and
-#: of a pin without friction only the clearance moves its body.
-STILL = {slide_on_a_bar: {"a", "b"}, bouncing_pin: {"R"}}
+#: of a pin without friction only the clearance moves its body. The static
+#: coefficient has no effect on a wheel that only slides.
+STILL = {slide_on_a_bar: {"a", "b"}, bouncing_pin: {"R"}, slipping_wheel: {"mus"}}
 #: Numbers that cannot change a little, and a threshold.
 FIXED = {"teeth", "rest_speed"}
 NUMBERS = ["number", "law", "pair", "triple", "law_pair", "laws", "terms"]

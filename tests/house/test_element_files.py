@@ -57,8 +57,8 @@ def elements() -> list[Element]:
     listed = re.sub(r"\bForces \{[^}]*\}", "", listed)
     calls = re.findall(r"(?ms)^(?:constraints|forces)! \{(.*?)^\}", listed)
     groups = {"Joints", "Drivers"}
-    # a part of a contact, and a joint with play, which a file writes as the contact and the joint
-    groups |= {"ContactFriction", "Play"}
+    # parts of a contact and of a joint, and joints with play; a file writes contacts and joints
+    groups |= {"ContactFriction", "SlipFriction", "Play", "LooseBelt"}
     names = [name for call in calls for name in re.findall(r"\w+", call) if name not in groups]
     return [element(name) for name in names]
 

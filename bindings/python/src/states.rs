@@ -197,10 +197,8 @@ impl PyStates {
             let (frame, model) = (frame_named(py, frame)?, self.compiled());
             let (k, body) = self.touched(py, joint, on)?;
             self.multipliers(py)?;
-            let own = model.layout.constraints[k].rows.clone();
-            self.each(py, 3, |_, motions, Acting { t, lam, .. }, out| {
-                let lam = &lam.unwrap_or_default()[own.clone()];
-                let found = reactions::reaction(model, k, body, frame, motions, t, lam);
+            self.each(py, 3, |_, motions, acting, out| {
+                let found = actions::reaction(model, k, body, frame, motions, acting);
                 write(found.unwrap_or_else(Wrench::zero), out);
             })
         })
@@ -211,7 +209,8 @@ impl PyStates {
     fn impulse<'py>(&self, py: Python<'py>, name: &str, on: &str) -> PyResult<Table<'py>> {
         guard("States.impulse", || {
             let model = self.compiled();
-            if model.force(name).is_none_or(|k| model.forces[k].held_row.is_none()) {
+            let rests = |k: usize| model.forces[k].held_row.is_some();
+            if model.constraint(name).is_some() || !model.force(name).is_some_and(rests) {
                 return self.reaction(py, name, on, "global");
             }
             let (k, body) = self.acted(py, name, on)?;
@@ -248,11 +247,9 @@ impl PyStates {
             let model = self.compiled();
             let k = constraint(py, model, joint)?;
             self.multipliers(py)?;
-            let own = model.layout.constraints[k].rows.clone();
             let width = model.constraints[k].element.result_quantities().len();
-            self.each(py, width, |_, motions, Acting { t, lam, .. }, out| {
-                let lam = &lam.unwrap_or_default()[own.clone()];
-                reactions::results(model, k, motions, t, lam, out);
+            self.each(py, width, |_, motions, acting, out| {
+                actions::results_of_joint(model, k, motions, acting, out);
             })
         })
     }

@@ -7,7 +7,7 @@ use kempe::elements::BodyId;
 use kempe::equations::actions::{self, each_action};
 use kempe::equations::forces::Acting;
 use kempe::equations::kinematics::Motions;
-use kempe::equations::reactions::{self, reaction, touched, Frame};
+use kempe::equations::reactions::{self, touched, Frame};
 use kempe::math::{Vec2, Wrench};
 use kempe::{Flow, Model};
 use serde_json::{json, Value};
@@ -45,7 +45,7 @@ pub fn described(model: &Model, run: &Run, k: usize) -> Result<Value, Fault> {
     let acting = Acting { z, lam, t: all.t[at] };
     Ok(json!({
         "t": all.t[at], "bodies": bodies.collect::<Vec<_>>(), "joints": joints(model),
-        "loads": lam.map(|lam| loads(model, &motions, acting, lam)),
+        "loads": lam.map(|_| loads(model, &motions, acting)),
     }))
 }
 
@@ -70,7 +70,7 @@ fn joints(model: &Model) -> Vec<Value> {
 }
 
 /// The loads of joints, drivers and force elements on every body, and the weights. The moment of a load is about its place.
-fn loads(model: &Model, motions: &Motions, acting: Acting<'_, f64>, lam: &[f64]) -> Vec<Value> {
+fn loads(model: &Model, motions: &Motions, acting: Acting<'_, f64>) -> Vec<Value> {
     let mut found = Vec::new();
     let mut add = |name: &str, kind: &str, on: BodyId, place: Vec2, load: Wrench| {
         found.push(json!({
@@ -80,10 +80,9 @@ fn loads(model: &Model, motions: &Motions, acting: Acting<'_, f64>, lam: &[f64])
     };
     let shown = model.constraints.iter().enumerate().filter(|(_, item)| item.element.in_files());
     for (k, item) in shown {
-        let own = &lam[model.layout.constraints[k].rows.clone()];
         let kind = item.group.section().trim_end_matches('s');
         for on in touched(model, k) {
-            let load = reaction(model, k, on, Frame::Global, motions, acting.t, own);
+            let load = actions::reaction(model, k, on, Frame::Global, motions, acting);
             let place = reactions::place(model, k, on, motions, acting.t);
             add(&item.name, kind, on, place, load.unwrap_or_else(Wrench::zero));
         }

@@ -2,8 +2,10 @@
 
 use super::dynamics::{Failure, Run};
 use crate::elements::Coordinate;
+use crate::equations::actions::reaction;
+use crate::equations::forces::Acting;
 use crate::equations::kinematics::Motions;
-use crate::equations::reactions::{reaction, Frame};
+use crate::equations::reactions::Frame;
 use crate::math::{each, Listed, Wrench};
 use crate::model::Model;
 use std::fmt;
@@ -70,15 +72,16 @@ impl Run {
         let apart = || NoResult::Unknown(format!("'{on}' is not a body of '{joint}'"));
         let body = model.body(on).ok_or_else(apart)?;
         let lam = self.accelerations(model).map_err(NoResult::Unsolved)?.lam;
-        let (n, rows) = (model.layout.n_q, model.layout.constraints[k].rows.clone());
+        let (n, n_z, n_lam) = (model.layout.n_q, model.layout.n_z, model.n_multipliers());
         let mut motions = Motions::new(&model.layout);
         let at = |(state, &t): (usize, &f64)| {
             let coordinates = state * n..(state + 1) * n;
             let [q, v] =
                 each([&self.trajectory.q, &self.trajectory.v], |x| &x[coordinates.clone()]);
             motions.place(&model.layout, q, v);
-            let own = &lam[state * model.layout.n_rows..][rows.clone()];
-            reaction(model, k, body, frame, &motions, t, own).ok_or_else(apart)
+            let z = &self.trajectory.z[state * n_z..(state + 1) * n_z];
+            let lam = Some(&lam[state * n_lam..(state + 1) * n_lam]);
+            reaction(model, k, body, frame, &motions, Acting { z, lam, t }).ok_or_else(apart)
         };
         self.trajectory.t.iter().enumerate().map(at).collect()
     }

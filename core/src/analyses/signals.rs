@@ -7,7 +7,7 @@ use crate::elements::{BodyId, Followed};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::measured::{self, ElementId};
-use crate::equations::reactions::{self, Frame};
+use crate::equations::reactions::Frame;
 use crate::equations::{actions, constraints, energy};
 use crate::expression::Tape;
 use crate::integrate::Bounds;
@@ -181,7 +181,7 @@ impl Signal {
                 let jet = measured::measured(model, *id, seen.motions, a)[*k];
                 [jet.value, jet.rate, jet.second][*order]
             }
-            Self::Reaction { k, part } => part.of(&reaction(model, *k, lam, seen)),
+            Self::Reaction { k, part } => part.of(&reaction(model, *k, seen)),
             Self::Result { k, place } => result(model, *k, *place, seen),
             Self::Effort(k) => -own(model, *k, lam)[0],
             Self::Power(k, rate) => -own(model, *k, lam)[0] * rate.value(model, seen),
@@ -228,17 +228,16 @@ fn body_j(bodies: &[BodyId]) -> BodyId {
     bodies[bodies.len().min(2) - 1]
 }
 
-fn reaction<S: Real>(model: &Model<S>, k: usize, lam: &[S], seen: &Seen<'_, S>) -> Wrench<S> {
-    let (on, own) = (body_j(&model.constraints[k].bodies), own(model, k, lam));
-    let found = reactions::reaction(model, k, on, Frame::Global, seen.motions, seen.t, own);
+fn reaction<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> Wrench<S> {
+    let on = body_j(&model.constraints[k].bodies);
+    let found = actions::reaction(model, k, on, Frame::Global, seen.motions, seen.acting());
     found.unwrap_or_else(Wrench::zero)
 }
 
 /// A result of a joint or driver.
 fn result<S: Real>(model: &Model<S>, k: usize, place: usize, seen: &Seen<'_, S>) -> S {
     let mut out = vec![S::zero(); model.constraints[k].element.result_quantities().len()];
-    let lam = own(model, k, seen.solved[1]);
-    reactions::results(model, k, seen.motions, seen.t, lam, &mut out);
+    actions::results_of_joint(model, k, seen.motions, seen.acting(), &mut out);
     out[place]
 }
 
@@ -275,7 +274,7 @@ fn line<S: Real>(model: &Model<S>, id: ElementId, seen: &Seen<'_, S>) -> S {
             let item = &model.constraints[k];
             let points = each([0, 1], |end| item.element.attachment(end).s);
             // a tension on i points towards j
-            let force = reaction(model, k, seen.solved[1], seen).force;
+            let force = reaction(model, k, seen).force;
             (&item.bodies, points, Vec2::new(-force.x, -force.y))
         }
         ElementId::Force(k) => {

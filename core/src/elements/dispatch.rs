@@ -40,6 +40,16 @@ macro_rules! constraints {
             0
         }
 
+        /// The fields that turn a joint or driver of a type into a force, unless they are 0.
+        pub fn loose_fields(kind: &str) -> &'static [&'static str] {
+            $($($(#[$on])* {
+                if kind == <$Name>::NAME {
+                    return <$Name as Joint>::LOOSE;
+                }
+            })+)+
+            &[]
+        }
+
         impl<S> Constraint<S> {
             /// The same constraint over another scalar.
             pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Constraint<T> {
@@ -111,6 +121,14 @@ macro_rules! constraints {
             /// The play of its teeth.
             pub fn backlash(&self) -> Option<Backlash<S>> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::backlash(e),)+)+ }
+            }
+            /// The strands of a belt that acts as a force.
+            pub fn strands(&self) -> Option<Strands<S>> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::strands(e),)+)+ }
+            }
+            /// The friction of a joint that may slip.
+            pub fn slips(&self) -> Option<Slips<S>> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::slips(e),)+)+ }
             }
             /// The geometry that the constraint fixes, for assembly.
             pub fn fixes(&self) -> Vec<Fixes<S>> {

@@ -30,13 +30,43 @@ impl Equation {
     }
 }
 
-/// The play of an equation.
+/// The play of an equation. Its limits are symmetric about 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Backlash<S> {
-    /// The distance of its limits, which are symmetric about 0, m.
-    pub whole: S,
-    /// Rate after a hit over the rate before it.
-    pub restitution: S,
+    /// The field that contains it.
+    pub field: &'static str,
+    /// The value of the field, m.
+    pub size: S,
+    /// The upper limit, in units of this value.
+    pub half: f64,
+    /// Rate after a hit over the rate before it; 0 if absent.
+    pub restitution: Option<S>,
+}
+
+/// The two strands of a belt that is elastic or slips.
+#[derive(Clone, Copy, Debug)]
+pub struct Strands<S> {
+    /// Force of a strand without load, N.
+    pub preload: Option<S>,
+    /// Length by which a strand of a loose belt is too long, m.
+    pub slack: Option<S>,
+    /// Stiffness of an elastic strand, N/m. None for a belt that slips.
+    pub stiffness: Option<S>,
+    /// Coefficient of friction of a belt that slips.
+    pub friction: Option<S>,
+    /// The radii of wheels i and j, m.
+    pub radii: [S; 2],
+    /// Whether the strands cross.
+    pub crossed: bool,
+}
+
+/// The coefficients of friction of a joint that may slip.
+#[derive(Clone, Copy, Debug)]
+pub struct Slips<S> {
+    /// While it slides.
+    pub kinetic: S,
+    /// Up to which it sticks.
+    pub r#static: S,
 }
 
 /// Positions of the participants of a joint, and the time.
@@ -165,6 +195,9 @@ pub trait Joint: Element {
     /// Number of internal coordinates, 0 to 3.
     const OWN: usize = 0;
 
+    /// Fields that turn the joint into a force, such as the play of its teeth, unless they are 0.
+    const LOOSE: &'static [&'static str] = &[];
+
     /// Whether its bodies slide or rotate along the first quantity of [`Joint::MEASURED`], so that there may be
     /// friction.
     const RUBS: bool = false;
@@ -292,6 +325,21 @@ pub trait Joint: Element {
     /// The play of the teeth. With play, the element is a force between two limits of its only equation.
     #[inline]
     fn backlash<S: Clone>(e: &Self::Over<S>) -> Option<Backlash<S>> {
+        let _ = e;
+        None
+    }
+
+    /// The friction along the quantity [`Measured::SLIP`] of a joint that may slip. Its load is the magnitude of the
+    /// reaction of the joint, and its results are the last ones of the joint.
+    #[inline]
+    fn slips<S: Clone>(e: &Self::Over<S>) -> Option<Slips<S>> {
+        let _ = e;
+        None
+    }
+
+    /// The strands of a belt that acts as a force.
+    #[inline]
+    fn strands<S: Clone>(e: &Self::Over<S>) -> Option<Strands<S>> {
         let _ = e;
         None
     }

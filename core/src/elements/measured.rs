@@ -22,6 +22,9 @@ impl Measured {
     /// The distance of two bodies that may touch; positive if they are apart.
     pub const GAP: Self = Self::length(["gap", "gap_rate", ""]);
 
+    /// The length by which a wheel has slipped on a line.
+    pub const SLIP: Self = Self::length(["slipped", "sliding", ""]);
+
     /// The gap between the flanks of a joint with play, and the opposite of its equation.
     pub const OF_PLAY: [Self; 2] = [Self::GAP, Self::length(["play", "play_rate", ""])];
 

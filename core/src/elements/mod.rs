@@ -102,9 +102,11 @@ pub mod forces {
     mod contact_friction;
     mod friction;
     mod generalized_force;
+    mod loose_belt;
     mod motor;
     mod play;
     mod point_force;
+    mod slip_friction;
     mod spring_damper;
     mod stop;
     mod torque;
@@ -119,9 +121,11 @@ pub mod forces {
     pub use contact_friction::{ContactFriction, ContactSticking};
     pub use friction::Friction;
     pub use generalized_force::GeneralizedForce;
+    pub use loose_belt::LooseBelt;
     pub use motor::Motor;
-    pub use play::{Play, BACKLASH};
+    pub use play::Play;
     pub use point_force::PointForce;
+    pub use slip_friction::SlipFriction;
     pub use spring_damper::SpringDamper;
     pub use stop::Stop;
     pub use torque::Torque;
@@ -156,7 +160,8 @@ pub use force_trait::{Force, Held, OwnPowers, OwnState, Situation, Wrenches};
 use forces::*;
 pub use group::Group;
 pub use joint_trait::{
-    At, Backlash, Equation, Fixes, Joint, Linearized, Moving, Required, ResultQuantity,
+    At, Backlash, Equation, Fixes, Joint, Linearized, Moving, Required, ResultQuantity, Slips,
+    Strands,
 };
 use joints::*;
 pub use kinds::{
@@ -221,6 +226,8 @@ forces! {
     Contact,
     ClearanceJoint,
     Play,
+    LooseBelt,
+    SlipFriction,
     ContactFriction,
     BeamPiece,
     #[cfg(feature = "test-elements")] Lag,

@@ -65,6 +65,13 @@ pub(super) fn directions<S: Real>(axis: S, on: &Pose<S>) -> (Vec2<S>, Vec2<S>) {
 pub(super) const TANGENTIAL: ResultQuantity =
     ResultQuantity { name: "tangential", unit: "N", negative: None };
 
+/// 1 while there is no slip, 0 otherwise.
+pub(super) const STICKING: ResultQuantity =
+    ResultQuantity { name: "sticking", unit: "", negative: None };
+
+/// The field with the play of teeth.
+pub(super) const BACKLASH: &str = "backlash";
+
 /// The fault of a radius that is zero or, unless it is `signed`, negative.
 pub(super) fn radius_fault(
     field: &'static str,

@@ -1,9 +1,10 @@
-//! The actions of force elements as they are reported: with torques about the places at which the forces act, with
-//! their results and powers, and with all parts of a force together.
+//! The actions of elements as they are reported: with torques about the places at which the forces act, with their
+//! results and powers, with all parts of a force together, and with the friction of joints.
 
 use super::forces::{at_state, each_wrench, potential, reported, threshold, Acting};
 use super::kinematics::Motions;
 use super::powers::Powers;
+use super::reactions::{self, attached, reduced, Frame};
 use crate::elements::BodyId;
 use crate::math::{Real, Vec2, Wrench};
 use crate::model::Model;
@@ -29,6 +30,47 @@ pub fn each_action<S: Real>(
             let torque = w.torque - arm.cross(w.force);
             visit(first + part, body, Wrench { torque, ..w });
         });
+    }
+}
+
+/// The [reaction](reactions::reaction) of joint or driver `k` on a body, with its friction. `acting` contains the
+/// multipliers.
+pub fn reaction<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    body: BodyId,
+    frame: Frame,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+) -> Option<Wrench<S>> {
+    let own = &acting.lam?[model.layout.constraints[k].rows.clone()];
+    let mut sum = reactions::reaction(model, k, body, frame, motions, acting.t, own)?;
+    if let Some(friction) = model.constraints[k].friction {
+        let at = attached(model, k, body, motions, acting.t);
+        each_wrench(model, friction, motions, acting, |_, on, w| {
+            if on == body {
+                sum = sum + reduced(w, &motions[body.0].pose, at, frame);
+            }
+        });
+    }
+    Some(sum)
+}
+
+/// The results of joint or driver `k` in addition to its reaction, in the order of its declaration. The friction of a
+/// joint gives the last of them. `acting` contains the multipliers.
+pub fn results_of_joint<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+    out: &mut [S],
+) {
+    let lam = acting.lam.unwrap_or_default();
+    let own = &lam[model.layout.constraints[k].rows.clone()];
+    reactions::results(model, k, motions, acting.t, own, out);
+    if let Some(friction) = model.constraints[k].friction {
+        let first = out.len() - model.forces[friction].element.result_quantities().len();
+        results_of_part(model, friction, motions, acting, &mut out[first..]);
     }
 }
 

@@ -99,7 +99,7 @@ pub fn place<S: Real>(
 }
 
 /// The joint frame on a body, with its origin at the point where the reaction acts.
-fn attached<S: Real>(
+pub(super) fn attached<S: Real>(
     model: &Model<S>,
     k: usize,
     body: BodyId,
@@ -265,7 +265,12 @@ fn on_ground<S: Real>(
 }
 
 /// A wrench about the origin of the frame, reduced to the joint point and expressed in the requested frame.
-fn reduced<S: Real>(w: Wrench<S>, pose: &Pose<S>, at: Attachment<S>, frame: Frame) -> Wrench<S> {
+pub(super) fn reduced<S: Real>(
+    w: Wrench<S>,
+    pose: &Pose<S>,
+    at: Attachment<S>,
+    frame: Frame,
+) -> Wrench<S> {
     let arm = pose.global(at.s);
     let force = match frame {
         Frame::Global => w.force,

@@ -9,14 +9,20 @@ use super::link::Linker;
 use super::pairs;
 use super::play;
 use super::problem::Problem;
-use super::scope::{states, Quantities, Scope};
+use super::quantities::Quantities;
+use super::scope::{states, Scope};
+use super::slip;
 use super::variable::Variable;
 use crate::elements::{
-    holding, BodyId, Constraint, CoordinateOf, Fixes, Followed, ForceElement, Group, OwnState,
+    holding, BodyId, Constraint, CoordinateOf, Fixes, Followed, ForceElement, Group, JointId,
+    OwnState,
 };
 use crate::expression::{Expression, Inferred, Symbol, Table, Tape};
 use crate::math::Listed;
 use std::sync::Arc;
+
+/// A joint or driver over formulas: its name, section and element.
+pub type LinkedConstraint = (String, Group, Constraint<Tape>);
 
 /// A force over formulas: its name, first-order states and element.
 pub type LinkedForce = (String, &'static [OwnState], ForceElement<Tape>);
@@ -41,14 +47,15 @@ pub struct Blueprint {
     /// Bodies; index 0 is ground.
     pub bodies: Arc<Vec<Body<Tape>>>,
     /// Joints, then drivers.
-    pub constraints: Arc<Vec<(String, Group, Constraint<Tape>)>>,
+    pub constraints: Arc<Vec<LinkedConstraint>>,
     /// Forces, with their first-order states.
     pub forces: Arc<Vec<LinkedForce>>,
     /// The forces before the companions are further parts of these forces, a contact of two curves for example. They
     /// follow each other.
     pub further: Arc<Vec<usize>>,
-    /// The last forces are companions of these forces, see [`Force::companion`](crate::elements::Force::companion).
-    pub companions: Arc<Vec<usize>>,
+    /// The last forces are companions: of these forces, see [`Force::companion`](crate::elements::Force::companion), or
+    /// the friction of joints that may slip.
+    pub companions: Arc<Vec<Option<usize>>>,
     /// The modes of forces in a phase of a run. Forces that hold have the last constraints, in this order.
     pub modes: Vec<ForceMode>,
     /// Number of the last constraints that equations of second order imply.
@@ -186,13 +193,18 @@ impl Blueprint {
         Arc::make_mut(&mut self.forces).extend(forces);
     }
 
-    /// Adds the companions of all forces.
-    pub(super) fn add_companions(&mut self) {
-        let of = |(k, (name, _, force)): (usize, &LinkedForce)| {
-            Some((k, (name.clone(), &[][..], force.companion()?)))
+    /// Adds the companions of all forces, and of all joints that may slip.
+    pub(super) fn add_companions(&mut self, quantities: &dyn Quantities) {
+        let of_force = |(k, (name, _, force)): (usize, &LinkedForce)| {
+            Some((Some(k), (name.clone(), &[][..], force.companion()?)))
         };
-        let found: (Vec<usize>, Vec<LinkedForce>) =
-            self.forces.iter().enumerate().filter_map(of).unzip();
+        let of_joint = |(k, (name, _, joint)): (usize, &LinkedConstraint)| {
+            let friction = slip::friction_of((JointId(k), name, joint), quantities)?;
+            Some((None, (name.clone(), &[][..], friction)))
+        };
+        let forces = self.forces.iter().enumerate().filter_map(of_force);
+        let joints = self.constraints.iter().enumerate().filter_map(of_joint);
+        let found: (Vec<Option<usize>>, Vec<LinkedForce>) = forces.chain(joints).unzip();
         self.companions = found.0.into();
         Arc::make_mut(&mut self.forces).extend(found.1);
     }

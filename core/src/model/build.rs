@@ -56,7 +56,7 @@ pub fn build(
     }
     beams::connect(&mut blueprint, linked);
     blueprint.add_further(further);
-    blueprint.add_companions();
+    blueprint.add_companions(&quantities);
     for (k, unit) in scope.units.take() {
         let functions = blueprint.functions.iter_mut();
         functions.for_each(|functions| functions.laws[k].unit.clone_from(&unit));

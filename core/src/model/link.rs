@@ -6,7 +6,8 @@ use super::items::Body;
 use super::law_faults::WITHOUT_FORMULA;
 use super::problem::Problem;
 use super::problems::MOST_REPORTED;
-use super::scope::{LawOf, Quantities, Reach, Scope};
+use super::quantities::Quantities;
+use super::scope::{LawOf, Reach, Scope};
 use super::unit_check::ANY_UNIT;
 use crate::elements::{
     measured_of, BodyId, Constraint, Coordinate, CoordinateOf, CurveOn, Default, Field, Followed,

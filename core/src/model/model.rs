@@ -8,7 +8,7 @@ use super::layout::{StateLayout, Touched};
 use super::modes;
 use super::switch::{Switch, SwitchOwner};
 use super::variable::Dependence;
-use crate::elements::{BodyId, Constraint, Group, Mode};
+use crate::elements::{BodyId, Constraint, Group, JointId, Mode};
 use crate::expression::{Tape, Values};
 use crate::math::{Lift, Listed, Real, Vec2};
 use std::sync::Arc;
@@ -60,8 +60,7 @@ impl<S: Real> Model<S> {
     pub fn new(blueprint: &Arc<Blueprint>, parameters: &[S]) -> Self {
         let reference = Reference(parameters);
         let value = &mut |tape: &Tape| tape.evaluate(&reference);
-        let (mut touched, mut switches) = (Vec::new(), Vec::new());
-        let mut constraints: Vec<ConstraintItem<S>> = Vec::new();
+        let (mut touched, mut switches, mut constraints) = (Vec::new(), Vec::new(), Vec::new());
         for (name, group, formula) in blueprint.constraints.iter() {
             let mut depends = Dependence::default();
             formula.map(&mut |tape| depends.add(tape));
@@ -90,10 +89,11 @@ impl<S: Real> Model<S> {
                 measures_from_ground: !depends.bodies.is_empty(),
                 driven: *group == Group::Drivers || depends.time,
                 equations,
+                friction: None,
                 curve_switch: None,
             });
         }
-        let mut forces = forces(blueprint, value, &mut switches);
+        let mut forces = forces(blueprint, value, &mut constraints, &mut switches);
         curve_switches(&mut constraints, &mut switches);
         let bodies: Vec<_> = blueprint.bodies.iter().map(|b| b.map(value).weighed()).list();
         let unknowns = bodies[1..].iter().map(|body| if body.turns { 3 } else { 2 });
@@ -164,10 +164,11 @@ fn curve_switches<S: Real>(constraints: &mut [ConstraintItem<S>], switches: &mut
     }
 }
 
-/// The forces of a blueprint. Adds their switches to the list.
+/// The forces of a blueprint. Adds their switches to the list, and their indices to the joints whose friction they are.
 fn forces<S: Real>(
     blueprint: &Blueprint,
     value: &mut dyn FnMut(&Tape) -> S,
+    constraints: &mut [ConstraintItem<S>],
     switches: &mut Vec<Switch>,
 ) -> Vec<ForceItem<S>> {
     let items = blueprint.forces.iter().enumerate().map(|(k, (name, states, formula))| {
@@ -198,9 +199,15 @@ fn forces<S: Real>(
     let mut all: Vec<ForceItem<S>> = items.list();
     let first = all.len() - blueprint.companions.len();
     for (k, of) in blueprint.companions.iter().enumerate().map(|(k, of)| (first + k, *of)) {
+        all[k].is_companion = true;
+        let Some(of) = of else {
+            let joint = all[k].reaction.map(|JointId(joint)| &mut constraints[joint]);
+            joint.into_iter().for_each(|joint| joint.friction = Some(k));
+            continue;
+        };
         (all[of].partner, all[k].partner) = (Some(k), Some(of));
         // both read the same switches
-        (all[k].is_companion, all[k].first_switch) = (true, all[of].first_switch);
+        all[k].first_switch = all[of].first_switch;
     }
     let first = first - blueprint.further.len();
     for (k, of) in blueprint.further.iter().enumerate().map(|(k, of)| (first + k, *of)) {

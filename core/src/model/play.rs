@@ -1,22 +1,18 @@
-//! Joints with play. They are written as joints and act as forces, so that they follow the forces in a model.
+//! Joints with play, and belts that are elastic or slip. They are written as joints and act as forces, so that they
+//! follow the forces in a model.
 
 use super::definition::{Definition, Entry, Value};
 use super::link::Linker;
-use crate::elements::forces::{Play, BACKLASH};
-use crate::elements::{acts_as_force, catalogue, Acted, Constraint, Followed, ForceElement, Group};
+use crate::elements::forces::{LooseBelt, Play};
+use crate::elements::{acts_as_force, loose_fields, Constraint, ForceElement, Group};
 use crate::expression::Tape;
 use std::borrow::Cow;
 
-/// Whether an entry is a joint with play.
+/// Whether an entry is a joint that acts as a force.
 pub(super) fn is_written(entry: &Entry) -> bool {
     let Some(Value::Text(kind)) = entry.get("type") else { return false };
-    let given = !matches!(entry.get(BACKLASH), None | Some(Value::Number(0.0)));
-    acts_as_force(kind)
-        || given
-            && catalogue().into_iter().any(|(group, table)| {
-                let has_play = table.fields.iter().any(|field| field.name == BACKLASH);
-                group == Group::Joints && table.name == kind && has_play
-            })
+    let given = |field: &&str| !matches!(entry.get(field), None | Some(Value::Number(0.0)));
+    acts_as_force(kind) || loose_fields(kind).iter().any(given)
 }
 
 /// The definition with its joints that have play after its forces.
@@ -42,15 +38,14 @@ pub(super) fn read(
         return Some(force);
     }
     let joint = Constraint::read(Group::Joints, kind, linker)?;
-    let with_play = |joint: Constraint<Tape>| {
-        joint.backlash()?;
-        let name = format!("{}.play", entry.name);
-        let of = linker.quantities.followed(&name)?;
-        let coordinate = match of {
-            Followed::Coordinate(of) => of.into(),
-            of => Acted { of, gradient: linker.quantities.gradient(&name)? },
-        };
-        Some(ForceElement::Play(Play { joint: Box::new(joint), coordinate }))
+    let loose = |joint: Constraint<Tape>| {
+        let coordinate = linker.quantities.acted(&format!("{}.play", entry.name))?;
+        let is_elastic = joint.strands().is_some_and(|own| own.stiffness.is_some());
+        let (has_play, joint) = (joint.backlash().is_some(), Box::new(joint));
+        Some(match has_play {
+            true => ForceElement::Play(Play { joint, coordinate }),
+            false => ForceElement::LooseBelt(LooseBelt { joint, coordinate, is_elastic }),
+        })
     };
-    Some(joint.and_then(with_play))
+    Some(joint.and_then(loose))
 }

@@ -9,8 +9,9 @@ use super::items::Body;
 use super::link::Linker;
 use super::pairs;
 use super::play;
+use super::quantities::Quantities;
 use super::quantity_owner::{place, FormulaModel, QuantityOwner};
-use super::scope::{Quantities, Scope};
+use super::scope::Scope;
 use crate::elements::{
     BodyId, Constraint, Followed, ForceElement, Group, Measured, PointOn, PLACE,
 };

@@ -2,8 +2,8 @@
 
 use super::variable::Variable;
 use crate::elements::{
-    At, Attachment, BodyId, Constraint, Coordinate, CoordinateOf, Followed, ForceElement, Measured,
-    PointOn, QuantityOf, PLACE,
+    At, Attachment, Backlash, BodyId, Constraint, Coordinate, CoordinateOf, Followed, ForceElement,
+    Measured, PointOn, QuantityOf, PLACE,
 };
 use crate::expression::{Symbol, Tape, Values};
 use crate::math::{Listed, Local, Pose, Real, Twist};
@@ -80,7 +80,8 @@ impl<S: Real> QuantityOwner<S> {
             Self::Force(element) | Self::Several(element) => element.measure(at, &mut values),
             Self::Play(joint) => {
                 let play = joint.play(at);
-                let half = joint.backlash().map_or(S::zero(), |own| S::constant(0.5) * own.whole);
+                let half = |own: Backlash<S>| S::constant(own.half) * own.size;
+                let half = joint.backlash().map_or(S::zero(), half);
                 values.copy_from_slice(&[half - play.abs(), play]);
             }
         }

@@ -9,9 +9,10 @@ use super::law_faults::{ambiguity, without_formula};
 use super::places::{internals, places, NameIndex};
 use super::problem::Problem;
 use super::problems::MOST_REPORTED;
+use super::quantities::Quantities;
 use super::unit_check::check_unit;
 use super::variable::{Dependence, Variable};
-use crate::elements::{states_of, BodyId, Coordinate, Followed, Measured, OwnState};
+use crate::elements::{states_of, BodyId, Coordinate, Measured, OwnState};
 use crate::expression::{Expression, ExpressionError, Inferred, Names, Symbol, Table, Tape};
 use crate::math::Listed;
 use std::cell::RefCell;
@@ -57,22 +58,6 @@ pub enum Reach {
     Positions,
     /// Parameters, time and state.
     State,
-}
-
-/// Quantities of points and elements that formulas may use by name.
-pub trait Quantities {
-    /// The formula of a position quantity, or of its rate if `rates` is set.
-    fn formula(&self, name: &str, rates: bool) -> Option<Tape>;
-    /// A position quantity with the bodies between which it is measured.
-    fn followed(&self, name: &str) -> Option<Followed<Tape>>;
-    /// The derivatives of a position quantity with respect to x, y and angle of its bodies i and j.
-    fn gradient(&self, name: &str) -> Option<[[Tape; 3]; 2]>;
-    /// The reason that a quantity exists but has no formula.
-    fn refusal(&self, name: &str) -> Option<String>;
-    /// The position quantities of a point or element; None if there is no such owner.
-    fn offered(&self, owner: &str) -> Option<Vec<&'static str>>;
-    /// Names for suggestions.
-    fn names(&self, rates: bool) -> Vec<String>;
 }
 
 /// The context of a law: the quantities that it may use, and the element whose own quantities need no prefix.

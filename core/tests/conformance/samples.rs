@@ -12,10 +12,10 @@ use kempe::elements::joints::{
 use kempe::elements::test_elements::{
     Bead, Blower, GapSpring, Lag, Levels, Overload, Pulley, Rubbing, TurnedPin,
 };
-use kempe::elements::QuantityKind;
 use kempe::elements::{
     catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveFormula, CurveOn,
-    CurvePoints, ForceElement, Frame, JointId, Linearized, Moving, PointOn, Polygon, Side,
+    CurvePoints, ForceElement, Frame, JointId, Linearized, Moving, PointOn, Polygon, QuantityKind,
+    Side,
 };
 use kempe::expression::{Expression, FormulaValues, Names, Symbol, Tape};
 use kempe::math::{Interpolation, Local, Motion, Pose, Real, Twist, Vec2};
@@ -105,24 +105,26 @@ fn pins_and_slides() -> Vec<Constraint> {
 }
 
 fn wheels() -> Vec<Constraint> {
-    let mut all = vec![
-        Constraint::Rack(Rack {
-            i: on(1, 0.3, 0.1),
-            j: on(2, -0.2, 0.4),
-            radius: -0.6,
-            axis: 0.4,
-            offset: 0.3,
-            backlash: None,
-            restitution: 0.0,
-        }),
-        Constraint::Rolling(Rolling {
+    let mut all = vec![Constraint::Rack(Rack {
+        i: on(1, 0.3, 0.1),
+        j: on(2, -0.2, 0.4),
+        radius: -0.6,
+        axis: 0.4,
+        offset: 0.3,
+        backlash: None,
+        restitution: 0.0,
+    })];
+    for friction in [None, Some(0.3)] {
+        all.push(Constraint::Rolling(Rolling {
             i: on(1, 0.5, 0.2),
             j: on(2, 0.1, -0.3),
             radius: 0.8,
             axis: -1.1,
             offset: -0.2,
-        }),
-    ];
+            friction,
+            r#static: None,
+        }));
+    }
     for (internal, toothed) in [(false, false), (true, false), (false, true)] {
         all.push(Constraint::Gear(Gear {
             i: on(1, 0.2, -0.1),
@@ -139,7 +141,17 @@ fn wheels() -> Vec<Constraint> {
     }
     for (radii, crossed) in [([0.7, 0.3], false), ([0.7, 0.3], true), ([0.4, 0.4], false)] {
         let (i, j) = (on(1, 0.2, -0.1), on(2, 0.3, 0.4));
-        all.push(Constraint::Belt(Belt { i, j, radii, crossed, offset: -0.2 }));
+        all.push(Constraint::Belt(Belt {
+            i,
+            j,
+            radii,
+            crossed,
+            offset: -0.2,
+            preload: None,
+            friction: None,
+            stiffness: None,
+            slack: None,
+        }));
     }
     all
 }

@@ -211,7 +211,10 @@ class Belt(Element):
     direction from centre i to centre j. σ is -1 for an open belt and 1 for a crossed belt. The
     joints of the mechanism hold the distance of the centres. λ is the difference of the forces
     of the two strands. Wheel j carries the torque -σ λ r_j about its centre and the force λ
-    (r_i + σ r_j)/distance normal to the line of centres.
+    (r_i + σ r_j)/distance normal to the line of centres. With `preload` and `friction`, the
+    belt slips where |λ| reaches 2 preload tanh(friction β/2), with the smaller angle of wrap β.
+    With `stiffness`, the strands are springs with the forces preload ± stiffness Φ, as long as
+    they are taut. With `slack`, there is a force only beyond Φ = ±slack.
 
     Attributes:
         i: Centre of wheel i, as `body.point`.
@@ -219,6 +222,10 @@ class Belt(Element):
         radii: Radii of the wheels [m].
         crossed: Whether the strands cross, so that the wheels turn in opposite senses.
         offset: Constant that is subtracted in Φ [m].
+        preload: Force of each strand without load [N].
+        friction: With `preload`: coefficient of friction between belt and wheels.
+        stiffness: Stiffness of each strand [N/m].
+        slack: Length by which each strand of a loose belt is too long [m].
     """
 
     i: str
@@ -226,6 +233,10 @@ class Belt(Element):
     radii: Pair
     crossed: bool = False
     offset: Number = 0.0
+    preload: Number | None = None
+    friction: Number | None = None
+    stiffness: Number | None = None
+    slack: Number | None = None
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "belt"
     value_kinds: ClassVar[Mapping[str, str]] = {
@@ -234,6 +245,10 @@ class Belt(Element):
         "radii": "pair",
         "crossed": "flag",
         "offset": "number",
+        "preload": "number",
+        "friction": "number",
+        "stiffness": "number",
+        "slack": "number",
     }
 
 
@@ -287,7 +302,9 @@ class Rolling(Element):
     Rolling: wheel j rolls on a line of body i without slip. Φ1 = n·d - radius and Φ2 = u·d +
     radius (angle_j - angle_i) - offset, where u is the direction of the line, n is its left
     normal and d = point_j - point_i. The force on body i at the point of contact is +λ1 along n
-    and +λ2 along u. The opposite force acts on body j.
+    and +λ2 along u. The opposite force acts on body j. With `friction`, the wheel rolls as long
+    as |λ2| is at most static |λ1|. Otherwise it slides, and the force along u is friction |λ1|
+    against the sliding velocity.
 
     Attributes:
         i: Point of body i on the line, as `body.point`.
@@ -296,6 +313,9 @@ class Rolling(Element):
             [m].
         axis: Angle of the line in the frame of body i [rad].
         offset: Constant that is subtracted in Φ2 [m].
+        friction: Coefficient of friction while the wheel slides. Without it, the wheel never
+            slides.
+        static: Coefficient of friction up to which the wheel rolls; `friction` if absent.
     """
 
     i: str
@@ -303,6 +323,8 @@ class Rolling(Element):
     radius: Number
     axis: Number = 0.0
     offset: Number = 0.0
+    friction: Number | None = None
+    static: Number | None = None
     section: ClassVar[str] = "joints"
     kind: ClassVar[str] = "rolling"
     value_kinds: ClassVar[Mapping[str, str]] = {
@@ -311,6 +333,8 @@ class Rolling(Element):
         "radius": "number",
         "axis": "number",
         "offset": "number",
+        "friction": "number",
+        "static": "number",
     }
 
 
@@ -1177,6 +1201,10 @@ class ElementMethods:
         radii: Pair,
         crossed: bool = False,
         offset: Number = 0.0,
+        preload: Number | None = None,
+        friction: Number | None = None,
+        stiffness: Number | None = None,
+        slack: Number | None = None,
     ) -> Belt:
         """Add an element of type ``belt`` and return it.
 
@@ -1185,7 +1213,10 @@ class ElementMethods:
         direction from centre i to centre j. σ is -1 for an open belt and 1 for a crossed belt. The
         joints of the mechanism hold the distance of the centres. λ is the difference of the forces
         of the two strands. Wheel j carries the torque -σ λ r_j about its centre and the force λ
-        (r_i + σ r_j)/distance normal to the line of centres.
+        (r_i + σ r_j)/distance normal to the line of centres. With `preload` and `friction`, the
+        belt slips where |λ| reaches 2 preload tanh(friction β/2), with the smaller angle of wrap β.
+        With `stiffness`, the strands are springs with the forces preload ± stiffness Φ, as long as
+        they are taut. With `slack`, there is a force only beyond Φ = ±slack.
 
         Args:
             name: its name in the model.
@@ -1194,8 +1225,25 @@ class ElementMethods:
             radii: Radii of the wheels [m].
             crossed: Whether the strands cross, so that the wheels turn in opposite senses.
             offset: Constant that is subtracted in Φ [m].
+            preload: Force of each strand without load [N].
+            friction: With `preload`: coefficient of friction between belt and wheels.
+            stiffness: Stiffness of each strand [N/m].
+            slack: Length by which each strand of a loose belt is too long [m].
         """
-        return self._add(Belt(name, i=i, j=j, radii=radii, crossed=crossed, offset=offset))
+        return self._add(
+            Belt(
+                name,
+                i=i,
+                j=j,
+                radii=radii,
+                crossed=crossed,
+                offset=offset,
+                preload=preload,
+                friction=friction,
+                stiffness=stiffness,
+                slack=slack,
+            )
+        )
 
     def rack(
         self,
@@ -1252,13 +1300,17 @@ class ElementMethods:
         radius: Number,
         axis: Number = 0.0,
         offset: Number = 0.0,
+        friction: Number | None = None,
+        static: Number | None = None,
     ) -> Rolling:
         """Add an element of type ``rolling`` and return it.
 
         Rolling: wheel j rolls on a line of body i without slip. Φ1 = n·d - radius and Φ2 = u·d +
         radius (angle_j - angle_i) - offset, where u is the direction of the line, n is its left
         normal and d = point_j - point_i. The force on body i at the point of contact is +λ1 along n
-        and +λ2 along u. The opposite force acts on body j.
+        and +λ2 along u. The opposite force acts on body j. With `friction`, the wheel rolls as long
+        as |λ2| is at most static |λ1|. Otherwise it slides, and the force along u is friction |λ1|
+        against the sliding velocity.
 
         Args:
             name: its name in the model.
@@ -1268,8 +1320,22 @@ class ElementMethods:
                 [m].
             axis: Angle of the line in the frame of body i [rad].
             offset: Constant that is subtracted in Φ2 [m].
+            friction: Coefficient of friction while the wheel slides. Without it, the wheel never
+                slides.
+            static: Coefficient of friction up to which the wheel rolls; `friction` if absent.
         """
-        return self._add(Rolling(name, i=i, j=j, radius=radius, axis=axis, offset=offset))
+        return self._add(
+            Rolling(
+                name,
+                i=i,
+                j=j,
+                radius=radius,
+                axis=axis,
+                offset=offset,
+                friction=friction,
+                static=static,
+            )
+        )
 
     def point_on_curve(self, name: str, i: str, curve: str) -> PointOnCurve:
         """Add an element of type ``point_on_curve`` and return it.

@@ -24,9 +24,6 @@ pub struct Play<S = f64> {
     pub coordinate: Acted<S>,
 }
 
-/// The field that gives a joint its play.
-pub const BACKLASH: &str = "backlash";
-
 /// Rate below which the flanks rest on each other, m/s.
 const REST_SPEED: f64 = 1e-9;
 
@@ -57,12 +54,14 @@ impl Element for Play {
 
 impl<S: Real> Play<S> {
     fn backlash(&self) -> Backlash<S> {
-        let none = Backlash { whole: S::constant(f64::NAN), restitution: S::zero() };
+        let none =
+            Backlash { field: "", size: S::constant(f64::NAN), half: 0.5, restitution: None };
         self.joint.backlash().unwrap_or(none)
     }
 
     fn half(&self) -> S {
-        S::constant(0.5) * self.backlash().whole
+        let Backlash { size, half, .. } = self.backlash();
+        S::constant(half) * size
     }
 
     /// The force along s.
@@ -91,7 +90,7 @@ impl Force for Play {
     }
 
     fn play(e: &Play) -> Option<(&'static str, f64)> {
-        Some((BACKLASH, e.backlash().whole))
+        Some((e.backlash().field, 2.0 * e.half()))
     }
 
     fn measure<S: Real>(e: &Play<S>, at: &At<'_, S>, out: &mut [S]) {
@@ -116,7 +115,8 @@ impl Force for Play {
     }
 
     fn behaviour<S: Real>(e: &Play<S>) -> Option<Behaviour<S>> {
-        let (restitution, rest_speed) = (e.backlash().restitution, S::constant(REST_SPEED));
+        let restitution = e.backlash().restitution.unwrap_or_else(S::zero);
+        let rest_speed = S::constant(REST_SPEED);
         Some(Behaviour::Impacts { restitution, rest_speed })
     }
 
@@ -139,10 +139,10 @@ impl Force for Play {
     }
 
     fn holding(e: &Play<Tape>, side: f64, value: f64) -> Option<Constraint<Tape>> {
-        let whole = e.joint.backlash()?.whole;
+        let Backlash { size, half, .. } = e.joint.backlash()?;
         let limit = match side {
             0.0 => Tape::from(value),
-            side => whole.times(0.5 * side),
+            side => size.times(half * side),
         };
         Some(holding(e.coordinate.of.clone(), limit))
     }
@@ -152,11 +152,12 @@ impl Force for Play {
     }
 
     fn fault(e: &Play) -> Option<(&'static str, String)> {
-        let Backlash { whole, restitution } = e.backlash();
+        let Backlash { field, size, restitution, .. } = e.backlash();
+        let restitution = restitution.unwrap_or(0.0);
         let of_joint = e.joint.fault();
-        if of_joint.is_none() && whole <= 0.0 {
-            let message = format!("{whole} m; must be > 0; without play, remove the field");
-            return Some((BACKLASH, message));
+        if of_joint.is_none() && size <= 0.0 {
+            let message = format!("{size} m; must be > 0; without play, remove the field");
+            return Some((field, message));
         }
         let possible = (0.0..=1.0).contains(&restitution);
         let of_hits =

@@ -5,11 +5,14 @@
 //! and σ = 1 for a crossed belt. θ has a branch cut, so that Φ is taken modulo 2π (rᵢ + σ rⱼ), nearest 0; if this
 //! modulus is 0, θ cancels. λ is the difference of the forces of the two strands. The mechanism must hold the
 //! distance of the centres at any value > 0.
+//!
+//! A belt with a preload that slips or whose strands are elastic is a force, `forces/loose_belt.rs`. A loose belt
+//! without elasticity transmits a force only at the ends of its slack, `forces/play.rs`.
 
 use crate::elements::wheels::{centres, nearest, radius_fault, rolled, whole_turn, TANGENTIAL};
 use crate::elements::{
-    element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required,
-    ResultQuantity, SceneSymbol,
+    element, measure, At, Attachment, Backlash, BodyId, Equation, Fixes, Joint, Mark, Required,
+    ResultQuantity, SceneSymbol, Strands,
 };
 use crate::math::Real;
 
@@ -19,7 +22,10 @@ element! {
     /// direction from centre i to centre j. σ is -1 for an open belt and 1 for a crossed belt. The
     /// joints of the mechanism hold the distance of the centres. λ is the difference of the forces
     /// of the two strands. Wheel j carries the torque -σ λ r_j about its centre and the force λ
-    /// (r_i + σ r_j)/distance normal to the line of centres.
+    /// (r_i + σ r_j)/distance normal to the line of centres. With `preload` and `friction`, the belt slips
+    /// where |λ| reaches 2 preload tanh(friction β/2), with the smaller angle of wrap β. With
+    /// `stiffness`, the strands are springs with the forces preload ± stiffness Φ, as long as they are
+    /// taut. With `slack`, there is a force only beyond Φ = ±slack.
     Belt, "belt" {
         /// Centre of wheel i, as `body.point`.
         i: point,
@@ -31,14 +37,26 @@ element! {
         crossed: flag = false,
         /// Constant that is subtracted in Φ.
         offset: number [m] = 0.0,
+        /// Force of each strand without load.
+        preload: optional_number [N],
+        /// With `preload`: coefficient of friction between belt and wheels.
+        friction: optional_number,
+        /// Stiffness of each strand.
+        stiffness: optional_number [N/m],
+        /// Length by which each strand of a loose belt is too long.
+        slack: optional_number [m],
     }
 }
 
 /// Fraction of the sum of the radii below which their difference counts as zero, so that θ cancels.
 const EQUAL: f64 = 1e-5;
 
+/// The field with the play of a loose belt.
+const SLACK: &str = "slack";
+
 impl Joint for Belt {
     const RESULTS: &'static [ResultQuantity] = &[TANGENTIAL];
+    const LOOSE: &'static [&'static str] = &["preload", "stiffness", SLACK];
 
     fn bodies<S>(e: &Belt<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
@@ -65,6 +83,16 @@ impl Joint for Belt {
             true => Some(whole_turn(r_i + r_j)),
             false => (differ(e.radii) > 0.0).then(|| whole_turn(r_i - r_j)),
         }
+    }
+
+    fn backlash<S: Clone>(e: &Belt<S>) -> Option<Backlash<S>> {
+        let size = e.slack.clone().filter(|_| e.stiffness.is_none())?;
+        Some(Backlash { field: SLACK, size, half: 1.0, restitution: None })
+    }
+
+    fn strands<S: Clone>(e: &Belt<S>) -> Option<Strands<S>> {
+        let Belt { preload, slack, stiffness, friction, radii, crossed, .. } = e.clone();
+        Some(Strands { preload, slack, stiffness, friction, radii, crossed })
     }
 
     fn phase_mut<S>(e: &mut Belt<S>) -> Option<&mut S> {
@@ -95,7 +123,24 @@ impl Joint for Belt {
     }
 
     fn fault(e: &Belt) -> Option<(&'static str, String)> {
-        e.radii.iter().find_map(|radius| radius_fault("radii", *radius, false))
+        let of_radii = e.radii.iter().find_map(|radius| radius_fault("radii", *radius, false));
+        of_radii.or_else(|| fault_of_strands(e).map(|(field, must)| (field, must.to_string())))
+    }
+}
+
+/// The fault of a field of the strands.
+fn fault_of_strands(e: &Belt) -> Option<(&'static str, &'static str)> {
+    let positive = [("preload", e.preload), ("stiffness", e.stiffness), (SLACK, e.slack)];
+    if let Some((field, _)) = positive.into_iter().find(|(_, x)| x.is_some_and(|x| x <= 0.0)) {
+        return Some((field, "must be > 0; otherwise remove it"));
+    }
+    match (e.preload, e.friction, e.stiffness, e.slack) {
+        (_, Some(friction), ..) if friction < 0.0 => Some(("friction", "must not be negative")),
+        (_, Some(_), Some(_), _) => Some(("friction", "not together with stiffness; remove one")),
+        (None, Some(_), ..) => Some(("friction", "needs preload")),
+        (Some(_), .., Some(_)) => Some((SLACK, "not together with preload; remove one")),
+        (Some(_), None, None, _) => Some(("preload", "needs friction or stiffness")),
+        _ => None,
     }
 }
 

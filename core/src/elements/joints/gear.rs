@@ -17,7 +17,7 @@
 //! `forces/play.rs`.
 
 use crate::elements::wheels::{
-    centres, meshed, nearest, radii, radius_fault, rolled, whole_turn, TANGENTIAL,
+    centres, meshed, nearest, radii, radius_fault, rolled, whole_turn, BACKLASH, TANGENTIAL,
 };
 use crate::elements::{
     element, measure, At, Attachment, Backlash, BodyId, Equation, Fixes, Joint, Mark, Required,
@@ -86,6 +86,7 @@ fn given(e: &Gear) -> Option<(&'static str, String)> {
 
 impl Joint for Gear {
     const RESULTS: &'static [ResultQuantity] = &[TANGENTIAL];
+    const LOOSE: &'static [&'static str] = &[BACKLASH];
 
     fn bodies<S>(e: &Gear<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
@@ -114,8 +115,8 @@ impl Joint for Gear {
     }
 
     fn backlash<S: Clone>(e: &Gear<S>) -> Option<Backlash<S>> {
-        let restitution = e.restitution.clone();
-        e.backlash.clone().map(|whole| Backlash { whole, restitution })
+        let restitution = Some(e.restitution.clone());
+        e.backlash.clone().map(|size| Backlash { field: BACKLASH, size, half: 0.5, restitution })
     }
 
     fn play<S: Real>(e: &Gear<S>, at: &At<'_, S>) -> S {

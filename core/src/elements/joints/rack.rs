@@ -6,7 +6,7 @@
 //! the distance r from the line, so that the force acts at the pitch point. With backlash, the element is a force,
 //! `forces/play.rs`.
 
-use crate::elements::wheels::{directions, radius_fault, TANGENTIAL};
+use crate::elements::wheels::{directions, radius_fault, BACKLASH, TANGENTIAL};
 use crate::elements::{
     element, measure, At, Attachment, Backlash, BodyId, Equation, Fixes, Joint, Mark, Measured,
     Required, ResultQuantity, SceneSymbol, SymbolEnd,
@@ -41,6 +41,7 @@ element! {
 impl Joint for Rack {
     const MEASURED: &'static [Measured] = &[Measured::DISPLACEMENT];
     const RESULTS: &'static [ResultQuantity] = &[TANGENTIAL];
+    const LOOSE: &'static [&'static str] = &[BACKLASH];
 
     fn bodies<S>(e: &Rack<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
@@ -57,8 +58,8 @@ impl Joint for Rack {
     }
 
     fn backlash<S: Clone>(e: &Rack<S>) -> Option<Backlash<S>> {
-        let restitution = e.restitution.clone();
-        e.backlash.clone().map(|whole| Backlash { whole, restitution })
+        let restitution = Some(e.restitution.clone());
+        e.backlash.clone().map(|size| Backlash { field: BACKLASH, size, half: 0.5, restitution })
     }
 
     fn requires<S: Real>(e: &Rack<S>, at: &At<'_, S>) -> Vec<Required<S>> {

@@ -95,8 +95,9 @@ impl SampleNames {
 }
 
 impl Source for SampleNames {
-    fn given(&mut self, _: &Field) -> bool {
-        true
+    fn given(&mut self, field: &Field) -> bool {
+        // friction takes equations away from a joint that may slip
+        field.name != "friction"
     }
     fn body(&mut self, _: &Field) -> Option<BodyId> {
         Some(self.next_body())
