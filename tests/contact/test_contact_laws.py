@@ -147,3 +147,43 @@ def test_what_is_refused() -> None:
     start = kp.assemble(m, {"disc.x": 0, "disc.y": 0.2, "disc.angle": 0})
     with pytest.raises(kp.IntegrationError, match="the law of contact touch has no finite value"):
         kp.dynamics(m, start, t_end=5)
+
+
+@pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (1e-3, 1e-3, 100.0), (1e3, 1e3, 0.01)])
+@pytest.mark.parametrize("hollow", [False, True])
+def test_depth_of_wear_under_the_pressure_of_hertz(
+    scale: tuple[float, float, float], hollow: bool
+) -> None:
+    """A shaft turns at a constant speed and is pressed against a cylinder, or into its bush."""
+    mass, size, rate = scale
+    radius, other, width = 0.1 * size, (0.102 if hollow else 0.3) * size, 0.05 * size
+    weight, young = mass * size * rate**2, 1e9 * mass * rate**2 / size
+    reduced, k = young / (2 * (1 - 0.3**2)), 1e-9 * size / weight * size
+    line = weight / (np.pi * reduced * width)
+    apart = other - radius if hollow else other + radius
+    depth = line * (np.log(4 * apart / line) - 1)
+    m = kp.Model("shaft", gravity=(0, -size * rate**2))
+    y = -(apart + depth) if hollow else apart - depth
+    m.ground.points(O=(0, 0))
+    m.ground.curves(rim={"circle": [0, 0, other]})
+    m.body("carriage", mass=0.5 * mass, inertia=mass * size**2, points={"C": (0, 0)})
+    m.body("shaft", mass=0.5 * mass, inertia=mass * size**2, points={"C": (0, 0)})
+    m.translational("slide", "ground.O", "carriage.C", axes=("90 deg", "90 deg"))
+    m.revolute("pin", "carriage.C", "shaft.C")
+    m.coordinate_driver("turn", "pin.angle", value=f"{3 * rate!r}*t")
+    law = {"law": "hertz", "young": young, "poisson": 0.3, "width": width, "wear": k}
+    if hollow:
+        m.clearance("c", "ground.O", "shaft.C", radius=other, clearance=apart, **law)
+    else:
+        m.contact("c", "shaft.C", "ground.rim", radius=radius, **law)
+    start = kp.assemble(m, {"carriage.y": y, "carriage.vy": 0})
+    sol = kp.dynamics(m, start, t_end=2 / rate, method=kp.DOP853(rtol=1e-10, atol=1e-14))
+    assert_allclose(sol["c.force"], weight, rtol=1e-6)
+    curved = radius * other / apart
+    # the mean pressure is π/4 of the greatest one
+    pressure = np.pi / 4 * np.sqrt(weight * reduced / (np.pi * width * curved))
+    # the place of action is within the depth of the surface
+    slid = sol["c.sliding_distance"][-1]
+    assert_allclose(slid, 6 * radius, atol=6 * depth)
+    assert_allclose(sol["c.wear_depth"][-1], k * pressure * slid, rtol=1e-6)
+    assert_allclose(sol["c.wear_volume"][-1], k * weight * slid, rtol=1e-6)

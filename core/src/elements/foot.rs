@@ -14,6 +14,7 @@ use super::kinds::{self, CurveOn, Kind, Side, Source};
 use super::near::{choose, Near};
 use super::nearest::{AlongCurve, CurveSearch};
 use super::plane_curve::Curve;
+use super::polygon_foot::SUPPORT;
 use crate::expression::Tape;
 use crate::math::{each, Listed, Local, Real};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -52,13 +53,21 @@ impl<S> Rim<S> {
 impl Rim<Tape> {
     /// The curve on which a body rests, see [`CurveTouch::side`](super::touch::CurveTouch::side).
     pub fn supporting(&self, side: f64) -> Self {
-        match (&self.on.curve, support_of(side)) {
-            (Curve::Polygon(own), Some(support)) => {
-                Rim::new(CurveOn { body: self.on.body, curve: own.supporting(support) })
+        let curve = match (&self.on.curve, support_of(side)) {
+            (Curve::Polygon(own), Some(support)) => own.supporting(support),
+            (Curve::Line { from, to }, Some(_)) => {
+                Curve::Line { from: extended(from, to), to: extended(to, from) }
             }
-            _ => self.clone(),
-        }
+            _ => return self.clone(),
+        };
+        Rim::new(CurveOn { body: self.on.body, curve })
     }
+}
+
+/// A place on the line through `end` and `other`, far beyond `end`.
+fn extended(end: &Local<Tape>, other: &Local<Tape>) -> Local<Tape> {
+    let of = |end: &Tape, other: &Tape| end.clone() - (other.clone() - end.clone()).times(SUPPORT);
+    Local { x: of(&end.x, &other.x), y: of(&end.y, &other.y) }
 }
 
 /// The side at which a body rests on an edge or corner of a polygon with this index.
@@ -187,15 +196,23 @@ impl Rim {
 impl<S: Real> Rim<S> {
     /// The point nearest to p, with the distance positive on the given side.
     pub(super) fn near(&self, p: Local<S>, side: Side) -> Near<S> {
-        let out = S::constant(match side {
-            Side::Right => 1.0,
-            Side::Left => -1.0,
-        });
+        let out = sign_of(side);
         match &self.on.curve {
             Curve::Circle { center, radius } => of_circle(p, *center, *radius, out),
             Curve::Line { from, to } => of_line(p, *from, *to, out),
             Curve::Polygon(own) => own.foot(p).near,
             curve => self.searched(curve, p, out),
+        }
+    }
+
+    /// The point nearest to p on the curve that supports a body, see [`Rim::supporting`].
+    pub(super) fn near_on(&self, support: Option<usize>, p: Local<S>, side: Side) -> Near<S> {
+        match (&self.on.curve, support) {
+            (Curve::Polygon(own), Some(support)) => own.foot_on_support(support, p).near,
+            (Curve::Line { from, to }, Some(_)) => {
+                Straight::new(p, *from, *to, sign_of(side)).level()
+            }
+            _ => self.near(p, side),
         }
     }
 
@@ -319,14 +336,44 @@ fn of_circle<S: Real>(p: Local<S>, center: Local<S>, radius: S, out: S) -> Near<
     Near { distance: out * (from - radius), away: radial.scale(out), place }
 }
 
+/// +1 for the right side of a curve, -1 for the left one.
+pub(super) fn sign_of<S: Real>(side: Side) -> S {
+    S::constant(match side {
+        Side::Right => 1.0,
+        Side::Left => -1.0,
+    })
+}
+
+/// A point and a line without ends.
+struct Straight<S> {
+    from: Local<S>,
+    length: S,
+    tangent: Local<S>,
+    normal: Local<S>,
+    /// The coordinates of the point along the tangent and the normal.
+    u: S,
+    up: S,
+}
+
+impl<S: Real> Straight<S> {
+    fn new(p: Local<S>, from: Local<S>, to: Local<S>, out: S) -> Self {
+        let along = to - from;
+        let length = along.norm();
+        let tangent = along.scale(S::one() / length);
+        let normal = (-tangent.perp()).scale(out);
+        let [u, up] = [tangent.dot(p - from), normal.dot(p - from)];
+        Self { from, length, tangent, normal, u, up }
+    }
+
+    fn level(&self) -> Near<S> {
+        let place = self.from + self.tangent.scale(self.u);
+        Near { distance: self.up, away: self.normal, place }
+    }
+}
+
 fn of_line<S: Real>(p: Local<S>, from: Local<S>, to: Local<S>, out: S) -> Near<S> {
-    let along = to - from;
-    let length = along.norm();
-    let tangent = along.scale(S::one() / length);
-    let normal = (-tangent.perp()).scale(out);
-    let u = tangent.dot(p - from);
-    let up = normal.dot(p - from);
-    let level = Near { distance: up, away: normal, place: from + tangent.scale(u) };
+    let line = Straight::new(p, from, to, out);
+    let (level, Straight { length, tangent, normal, u, up, .. }) = (line.level(), line);
     let (first, last) = (-u, u - length);
     let ends = |end: Local<S>, on: Local<S>| beyond(end, on, normal, p - end);
     // behind the line, the nearest boundary is the line or the normal at an end

@@ -32,10 +32,11 @@ pub(super) struct PolygonFoot<S> {
 
 /// A body that rests on an edge or corner leaves it at this distance beyond its end, relative to the circumference. Then
 /// the nearest point is certainly on what follows.
-const BEYOND: f64 = 4e-12;
+pub(super) const BEYOND: f64 = 4e-12;
 
-/// The length of the line that supports an edge, in circumferences, on either side.
-const SUPPORT: f64 = 10.0;
+/// The length of the line that supports an edge or a point on a line, on either side: in circumferences, or in lengths of
+/// the line.
+pub(super) const SUPPORT: f64 = 10.0;
 
 impl Polygon {
     /// The edge or corner nearest to p, for a convex polygon.

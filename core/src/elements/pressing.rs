@@ -97,6 +97,14 @@ impl<S: Clone> Pressing<'_, S> {
     }
 }
 
+/// The states of wear: the length of sliding, the worn volume and, for cylinders, the worn depth of a surface that is
+/// always in the strip of contact.
+const WORN: [OwnState; 3] = [
+    OwnState { name: "sliding_distance", unit: "m" },
+    OwnState { name: "wear_volume", unit: "m^3" },
+    OwnState { name: "wear_depth", unit: "m" },
+];
+
 impl<S: Real> Pressing<'_, S> {
     fn touch(&self) -> CurveTouch<'_, S> {
         let Self { i, ref curve, radius, side, .. } = *self;
@@ -162,13 +170,18 @@ impl<S: Real> Pressing<'_, S> {
         }
     }
 
-    /// The rates of the length of sliding and of the worn volume (Archard, *Contact and rubbing of flat surfaces*, J. Appl.
-    /// Phys. 24 (1953) 981).
-    fn wearing(&self, at: &Situation<'_, S>) -> [S; 2] {
+    /// The rates of the [states](WORN) of wear (Archard, *Contact and rubbing of flat surfaces*, J. Appl. Phys. 24 (1953)
+    /// 981).
+    fn wearing(&self, at: &Situation<'_, S>, out: &mut [S]) {
+        out.fill(S::zero());
         let touch = self.point(at);
-        let Some(normal) = self.normal(at, &touch) else { return [S::zero(); 2] };
+        let Some(normal) = self.normal(at, &touch).map(Normal::sum) else { return };
         let speed = at.choose(0, -touch.gap, touch.sliding.abs(), S::zero());
-        [speed, self.wear * normal.sum() * speed]
+        (out[0], out[1]) = (speed, self.wear * normal * speed);
+        if let Some(depth) = out.get_mut(2) {
+            let pressure = self.compliance.pressure(normal, self.radius, self.touch().pitch());
+            *depth = self.wear * pressure * speed;
+        }
     }
 
     fn results(&self, at: &Situation<'_, S>, out: &mut [S]) {
@@ -273,18 +286,16 @@ impl<E: Presses> Force for E {
     }
 
     fn states(given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
-        match given("wear") {
-            true => &[
-                OwnState { name: "sliding_distance", unit: "m" },
-                OwnState { name: "wear_volume", unit: "m^3" },
-            ],
-            false => &[],
+        match (given("wear"), given("young")) {
+            (true, true) => &WORN,
+            (true, false) => &WORN[..2],
+            (false, _) => &[],
         }
     }
 
     fn state_rates<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
         if !out.is_empty() {
-            out.copy_from_slice(&E::pressing(e).wearing(at));
+            E::pressing(e).wearing(at, out);
         }
     }
 

@@ -14,13 +14,14 @@
 //! equation s = constant of the positions, also for a compliant contact, in which d < r. In a rigid contact d = r, and
 //! the pitch point is C(u).
 
-use super::foot::{side_of, support_of, Rim};
+use super::foot::{side_of, sign_of, support_of, Rim};
 use super::force_trait::Situation;
 use super::hertz::Depth;
 use super::kinds::{PointOn, Side};
 use super::mode::Mode;
 use super::near::Near;
 use super::plane_curve::Curve;
+use super::polygon_foot::BEYOND;
 use crate::math::{Local, Pose, Real, Vec2, Wrench};
 
 /// A circle of body i and a curve of body j.
@@ -76,27 +77,36 @@ impl<S: Real> CurveTouch<'_, S> {
         self.near(i, j).distance - self.radius
     }
 
-    /// The side at which the circle touches: -1, or less for an edge or corner of a polygon.
+    /// The side at which the circle touches: -1, or less for an edge or corner of a polygon, and for a point on a line.
     pub fn side(&self, at: &Situation<'_, S>) -> f64 {
-        let Curve::Polygon(own) = &self.curve.on.curve else { return -1.0 };
-        let p = self.center(&at.i().pose, &at.j().pose);
-        side_of(own.support(Local::new(p.x.in_lanes()[0], p.y.in_lanes()[0])))
+        match &self.curve.on.curve {
+            Curve::Polygon(own) => {
+                let p = self.center(&at.i().pose, &at.j().pose);
+                side_of(own.support(Local::new(p.x.in_lanes()[0], p.y.in_lanes()[0])))
+            }
+            Curve::Line { .. } if self.radius.in_lanes()[0] == 0.0 => side_of(0),
+            _ => -1.0,
+        }
     }
 
     /// How far the circle is from the end of the edge or corner on which it rests, as a part of the circumference of the
-    /// polygon.
+    /// polygon; and a point from the ends of a line, beyond which it does not rest, as a part of the length of the line.
     pub fn margin(&self, at: &Situation<'_, S>) -> Option<S> {
-        let Curve::Polygon(own) = &self.curve.on.curve else { return None };
-        let support = support_of_mode(at.mode)?;
-        Some(own.margin(support, self.center(&at.i().pose, &at.j().pose)))
+        let center = || self.center(&at.i().pose, &at.j().pose);
+        match &self.curve.on.curve {
+            Curve::Polygon(own) => Some(own.margin(support_of_mode(at.mode)?, center())),
+            Curve::Line { from, to } => {
+                let (u, length) = along_line(center(), *from, *to);
+                let left = u.min(length - u) / length + S::constant(BEYOND);
+                Some(S::select(self.radius, S::one(), left))
+            }
+            _ => None,
+        }
     }
 
     /// +1 if growing u has the body of the curve at its left.
     fn turned(&self) -> S {
-        S::constant(match self.side {
-            Side::Right => 1.0,
-            Side::Left => -1.0,
-        })
+        sign_of(self.side)
     }
 
     /// The sum of the signed radii of two circles; zero for another curve.
@@ -124,12 +134,8 @@ impl<S: Real> CurveTouch<'_, S> {
     /// The state with a place of action at a distance from the centre of the circle.
     fn at(&self, at: &Situation<'_, S>, place: impl Fn(&Near<S>) -> (S, S)) -> TouchPoint<S> {
         let (i, j) = (at.i(), at.j());
-        let near = match (&self.curve.on.curve, support_of_mode(at.mode)) {
-            (Curve::Polygon(own), Some(support)) => {
-                own.foot_on_support(support, self.center(&i.pose, &j.pose)).near
-            }
-            _ => self.near(&i.pose, &j.pose),
-        };
+        let center = self.center(&i.pose, &j.pose);
+        let near = self.curve.near_on(support_of_mode(at.mode), center, self.side);
         let (from_center, ratio) = place(&near);
         let away = j.pose.global(near.away);
         let along = away.perp().scale(self.turned());

@@ -17,8 +17,11 @@ use crate::math::{Listed, Local};
 const OF_POINT: [&str; 3] = ["i", "curve", "side"];
 const OF_CURVES: [&str; 2] = ["curves", "sides"];
 
-/// Fields of a contact at one place: its wear, and the cylinders of Hertz's law.
-const OF_ONE_PLACE: [&str; 2] = ["wear", "young"];
+/// Fields of a contact at one place, its wear and the cylinders of Hertz's law, each with what to do instead.
+const OF_ONE_PLACE: [[&str; 2]; 2] = [
+    ["wear", "remove wear"],
+    ["young", "give stiffness in place of law, young, poisson and width"],
+];
 /// Largest number of contacts of a point or circle in one contact.
 const MOST: usize = 2000;
 
@@ -46,13 +49,12 @@ pub(super) fn read(kind: &str, linker: &mut Linker<'_>) -> Option<Option<Vec<For
         return ForceElement::read(Group::Forces, kind, linker).map(|e| e.map(|e| vec![e]));
     }
     if pairings.len() > 1 {
-        for name in OF_ONE_PLACE {
+        for [name, instead] in OF_ONE_PLACE {
             if linker.entry.get(name).is_some() {
                 let message =
                     "belongs to a contact at one place; this one touches at several".to_string();
-                let hint = format!(
-                    "remove {name}, or write a contact of a point or circle for each place"
-                );
+                let hint =
+                    format!("{instead}, or write a contact of a point or circle for each place");
                 linker.report::<()>(field(&table.fields, name), message, Some(hint));
                 return Some(None);
             }
