@@ -173,7 +173,7 @@ def test_a_wheel_on_a_plate_that_shakes_in_both_directions(scale: Scale, reach: 
     impulse, times = stick_and_slip(driven, most, response, end)
     assert len(times) > 3
     found = np.sort(np.concatenate([sol.events["road.stick"].t, sol.events["road.slip"].t]))
-    # reversals without sticking are no events, but the own motion counts them
+    # reversals without sticking are not events, but the own motion counts them
     for t in found:
         assert np.min(np.abs(np.array(times) - t)) < 2e-6 * end
     assert_allclose(sol["w.vx"][-1], impulse / mass, rtol=2e-6)

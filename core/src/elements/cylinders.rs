@@ -39,7 +39,7 @@ impl<S: Real> Cylinders<S> {
         Self { stiffness: S::constant(std::f64::consts::PI) * reduced * width, apart }
     }
 
-    /// The half-width a of the strip for a force N, with the radius of one of the cylinders.
+    /// The half-width a of the strip for a force N, with the signed radius of one of the cylinders.
     pub fn half_width(&self, force: S, radius: S) -> S {
         let both = (radius * (self.apart - radius) / self.apart).abs();
         let squared = S::constant(4.0) * force * both / self.stiffness;

@@ -60,7 +60,7 @@ impl<S: Real> Compliance<S> {
         Some(Cylinders::new([self.young?, self.poisson?, self.width?], apart))
     }
 
-    /// The mean pressure on the strip of two cylinders for a force, with the radius of one of them, Pa.
+    /// The mean pressure on the strip of two cylinders for a force, with the signed radius of one of them, Pa.
     pub(super) fn pressure(&self, force: S, radius: S, apart: S) -> S {
         let Some((cylinders, width)) = self.cylinders(apart).zip(self.width) else {
             return S::zero();

@@ -179,8 +179,9 @@ impl<S: Real> Pressing<'_, S> {
         let speed = at.choose(0, -touch.gap, touch.sliding.abs(), S::zero());
         (out[0], out[1]) = (speed, self.wear * normal * speed);
         if let Some(depth) = out.get_mut(2) {
-            let pressure = self.compliance.pressure(normal, self.radius, self.touch().pitch());
-            *depth = self.wear * pressure * speed;
+            let circles = self.touch();
+            let radius = circles.turned() * self.radius;
+            *depth = self.wear * self.compliance.pressure(normal, radius, circles.pitch()) * speed;
         }
     }
 

@@ -105,7 +105,7 @@ impl<S: Real> CurveTouch<'_, S> {
     }
 
     /// +1 if growing u has the body of the curve at its left.
-    fn turned(&self) -> S {
+    pub fn turned(&self) -> S {
         sign_of(self.side)
     }
 

@@ -32,7 +32,7 @@ fn speed<S: Real>(e: &SlipFriction<S>, at: &Situation<'_, S>) -> S {
     let mut sum = S::zero();
     for (body, [x, y, angle]) in e.coordinate.gradient.iter().enumerate() {
         let twist = at.body(body).twist;
-        sum = sum + *x * twist.velocity.x + *y * twist.velocity.y + *angle * twist.omega;
+        sum += *x * twist.velocity.x + *y * twist.velocity.y + *angle * twist.omega;
     }
     sum
 }
