@@ -107,7 +107,7 @@ impl<S: Real> LooseBelt<S> {
         let mut sum = S::zero();
         for (body, [x, y, angle]) in self.coordinate.gradient.iter().enumerate() {
             let twist = at.body(body).twist;
-            sum -= (*x * twist.velocity.x + *y * twist.velocity.y + *angle * twist.omega);
+            sum -= *x * twist.velocity.x + *y * twist.velocity.y + *angle * twist.omega;
         }
         sum
     }
