@@ -1,4 +1,4 @@
-"""Assemblies that kempe writes: read again they move alike, and what is not written is told."""
+"""Assemblies that kempe writes: read again they move in the same way, and what they lack is listed."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ class Parts:
         self.tied = {name: name for name in self.solids}
 
     def plain(self, name: str) -> str:
-        """The name in the file; a change is told."""
+        """The name in the file; a change is listed."""
         written = name.translate(_SEPARATORS)
         if written != name:
             self.left.append(f"{name}: its name in the file is {written}")

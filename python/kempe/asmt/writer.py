@@ -110,7 +110,7 @@ class _Writer:
         return self.sheet.text()
 
     def _each(self, info: Any, make: Callable[[Any, Mapping[str, Any]], None]) -> None:
-        """Write an element; an error is told and the element left out if that was asked for."""
+        """Write an element. If `partial` is set, an error is listed, and the element left out."""
         try:
             known = _FIELDS.get(info.type)
             entry = self.model.tree[info.group if hasattr(info, "group") else "forces"][info.name]
