@@ -1,4 +1,4 @@
-"""Assemblies that kempe writes: read again they move in the same way, and what they lack is listed."""
+"""Assemblies that kempe writes: read again they move in the same way; what they lack is listed."""
 
 from __future__ import annotations
 
