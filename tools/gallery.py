@@ -72,6 +72,7 @@ INSTANTS = {
     "leaf_spring_guide": 1.0,
     "cross_spring_pivot": 1.0,
     "bistable_switch": 0.35,
+    "compliant_gripper": 1.0,
 }
 #: Paragraphs of examples whose files have no comment below the title, or a short one.
 PARAGRAPHS = {

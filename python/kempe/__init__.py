@@ -58,6 +58,7 @@ Show:
     write_report            a report with data, equations, figures, as HTML or PDF
     write_dxf               plates of the links, positions and paths as a drawing
     write_mjcf              a model of MuJoCo
+    write_asmt              an assembly of OndselSolver and FreeCAD
     export_fmu              the case as a component of other simulation tools
     units                   units of tables, figures and CSV files
 
@@ -122,6 +123,7 @@ if TYPE_CHECKING:
     from kempe.analyses.reachable import reachable as reachable
     from kempe.analyses.record import AssemblyWarning as AssemblyWarning
     from kempe.analyses.start import Start as Start
+    from kempe.asmt.writer import write_asmt as write_asmt
     from kempe.base.display_units import Units as Units
     from kempe.base.display_units import units as units
     from kempe.case import Case as Case
@@ -289,6 +291,7 @@ _HOME = {
     "synthesis": "",
     "tolerances": "sweeps",
     "units": "base.display_units",
+    "write_asmt": "asmt.writer",
     "write_dxf": "draw.dxf",
     "write_mjcf": "mjcf.writer",
     "write_report": "lab_report",

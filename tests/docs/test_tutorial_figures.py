@@ -10,7 +10,7 @@ from sizes import FULL
 from tools import tutorial_figures
 
 #: Their runs take ten seconds and more.
-LONG = ("geneva_drive", "spring_choice")
+LONG = ("geneva_drive", "gripper", "spring_choice")
 NAMES = [name for name in tutorial_figures.tutorials() if FULL or name not in LONG]
 
 

@@ -318,3 +318,13 @@ def test_no_name_of_an_element_type_is_in_a_drawing() -> None:
             text = path.read_text(encoding="utf-8")
             for name in set(names) - common:
                 assert not re.search(rf"""["'`]{name}["'`]""", text), (path.name, name)
+
+
+@pytest.mark.parametrize(
+    ("name", "moving"), [("bistable_switch", "shuttle"), ("leaf_spring_guide", "stage")]
+)
+def test_a_beam_is_one_body_in_the_numbers(name: str, moving: str) -> None:
+    shown = kp.scene(kp.load(ROOT / "examples" / f"{name}.toml").start())
+    made = display(shown, frame_view(shown))
+    found = {item["of"]: item["text"] for item in made if item.get("role") == "number"}
+    assert found == {"left": "1", "right": "2", moving: "3"}

@@ -12,9 +12,10 @@ LIST = CORE / "elements" / "mod.rs"
 GENERATED = "@generated"
 
 #: Sources that write or read entries of a case, as users do: the spring by which a page pulls at a
-#: body, the linkage that a synthesis has found, and the files of MuJoCo (those of other tools are
-#: in the crate exchange).
+#: body, the linkage that a synthesis has found, the files of MuJoCo (those of other tools are in
+#: the crate exchange), and the writer of assemblies.
 WRITERS = {
+    PACKAGE / "asmt" / "writer.py",
     *(ROOT / "bindings" / "web" / "src" / name for name in ("live.rs", "synthesis.rs")),
     *(
         PACKAGE / "mjcf" / f"{name}.py"

@@ -15,7 +15,7 @@ ROWS = (
     ("analyses", "mjcf"),
     ("case",),
     ("loading",),
-    ("design", "draw", "report", "stepping", "studio", "sweeps", "templates"),
+    ("asmt", "design", "draw", "report", "stepping", "studio", "sweeps", "templates"),
     ("exercise", "fmu", "synthesis"),
     ("plot",),
     ("lab_report", "notebook"),

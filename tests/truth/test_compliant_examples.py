@@ -105,3 +105,36 @@ def test_the_bistable_switch_snaps_as_shallow_theory_predicts(size: float) -> No
     stays = path.values[np.flatnonzero(force < 0)[-1]]
     zero = brentq(lambda d: shallow(rise / span, axial, d * rise / span)[0], 1.7, 1.99)
     assert stays / rise == pytest.approx(zero, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("thickness", "gap", "pull", "mass"),
+    [(1e-3, 3e-3, 3.0, 0.1), (0.9e-3, 2e-3, 2.0, 0.05), (1.2e-3, 2e-3, 6.0, 0.2)],
+)
+def test_the_compliant_gripper_holds_its_disc_with_what_the_leaves_leave(
+    thickness: float, gap: float, pull: float, mass: float
+) -> None:
+    given = {"thickness": thickness, "gap": gap, "pull": pull, "mass": mass}
+    case = kp.load(ROOT / "examples/compliant_gripper.toml", parameters=given)
+    end = case.run()["lift"].final
+    assert end["disc.y"] == pytest.approx(0.015 + 0.012, abs=2e-4)
+    # two guided leaves, stretched by the weight of the jaw and half of the disc
+    length, width, young, jaw = 0.05, 0.01, 1.4e9, 0.01
+    bending = young * width * thickness**3 / 12
+    tension = 9.81 * (jaw + mass / 2)
+    stiffness = 24 * bending / length**3 + 6 / 5 * tension / length
+    force = (pull - stiffness * gap) / (1 + stiffness / 1e5)
+    for pad in ("pad_1", "pad_2"):
+        assert end[f"{pad}.force"] == pytest.approx(force, rel=0.02)
+        assert abs(end[f"{pad}.tangential"]) == pytest.approx(mass * 9.81 / 2, rel=0.03)
+
+
+@pytest.mark.parametrize(("share", "lifted"), [(0.95, 0.0), (1.05, 1.0)])
+def test_the_compliant_gripper_lifts_what_friction_holds(share: float, lifted: float) -> None:
+    mass, friction, gap, length = 0.1, 0.4, 3e-3, 0.05
+    stiffness = 24 * 1.4e9 * 0.01 * 1e-9 / 12 / length**3
+    stiffness += 6 / 5 * 9.81 * (0.01 + mass / 2) / length
+    pull = share * mass * 9.81 / (2 * friction) + stiffness * gap
+    case = kp.load(ROOT / "examples/compliant_gripper.toml", parameters={"pull": pull})
+    end = case.run()["lift"].final
+    assert end["disc.y"] - 0.015 == pytest.approx(0.012 * lifted, abs=1e-3)

@@ -160,6 +160,7 @@ PAGES = {
             "kempe.write_report",
             "kempe.write_dxf",
             "kempe.write_mjcf",
+            "kempe.write_asmt",
         ),
     ),
     "errors": ApiPage(

@@ -13,7 +13,8 @@ pub fn mechanism(case: &Case, model: &Model) -> Value {
         let items = items.filter(|item| item.group == group && item.element.in_files());
         items.map(|item| json!({ "name": item.name, "type": item.element.kind() })).collect()
     };
-    let forces = model.listed_forces().iter();
+    // an elastic piece is part of its beam
+    let forces = model.listed_forces().iter().filter(|item| item.element.in_files());
     let forces: Vec<Value> =
         forces.map(|item| json!({ "name": item.name, "type": item.element.kind() })).collect();
     let blueprint = &model.blueprint;

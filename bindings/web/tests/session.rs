@@ -41,6 +41,18 @@ fn configurations_of_a_four_bar_are_two() {
 }
 
 #[test]
+fn a_beam_is_no_list_of_pieces() {
+    let mut page = Page(Session::default());
+    let found = page.ask(json!({ "do": "load", "text": example("cross_spring_pivot") }));
+    let names = |group: &str| -> Vec<String> {
+        let items = found["mechanism"][group].as_array().expect("a list").iter();
+        items.map(|item| item["name"].as_str().expect("a name").to_string()).collect()
+    };
+    assert_eq!(names("forces"), ["torque"]);
+    assert_eq!(names("joints"), ["A", "C", "B", "D"]);
+}
+
+#[test]
 fn faults_have_their_places() {
     let mut page = Page(Session::default());
     let text = PENDULUM.replace("mass = \"m\"", "mass = -1");

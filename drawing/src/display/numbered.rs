@@ -20,11 +20,12 @@ const MOST: usize = 40;
 /// Positions at the instants, points of print, and the occupied radius around them.
 type Pin = (Vec<At>, f64);
 
-/// Writes a number in a circle on each moving body, and its name beside it.
+/// Writes a number in a circle on each moving body, and its name beside it. A beam is one body.
 pub fn add(made: &mut List<'_>, numbers: Numbers) {
     let scene = made.scene;
     let bodies = scene.bodies.get(1..).unwrap_or_default();
-    if bodies.iter().filter(|body| body.kind != NODE).count() > MOST {
+    let shown: Vec<&Body> = bodies.iter().filter(|body| body.kind != NODE).collect();
+    if shown.len() > MOST {
         return;
     }
     let mut pins: Vec<Pin> = Vec::new();
@@ -32,12 +33,13 @@ pub fn add(made: &mut List<'_>, numbers: Numbers) {
         let wide = if is_around(symbol.mark) { RINGED } else { RADIUS };
         pins.extend(symbol.ends().map(|(body, at)| (printed_path(made, body, at), wide)));
     }
-    for body in bodies.iter().filter(|body| body.kind != NODE) {
-        let carrier = carrier(bodies, body);
-        let number = (body.number as i64 - 1 + numbers.first).to_string();
-        match free_place(made, carrier, &pins) {
-            Some(at) => {
-                let frame = Frame::upright(carrier.number, at);
+    for (k, body) in shown.into_iter().enumerate() {
+        let carriers = carriers(bodies, body);
+        let place = |carrier: &&Body| Some(carrier.number).zip(free_place(made, carrier, &pins));
+        let number = (k as i64 + numbers.first).to_string();
+        match carriers.iter().find_map(place) {
+            Some((carrier, at)) => {
+                let frame = Frame::upright(carrier, at);
                 let rim = circled(&body.name, &frame, [0.0; 2]);
                 let colour = colour_of(body.number);
                 made.items.extend(rim.map(|item| match item.colour.as_str() {
@@ -45,7 +47,7 @@ pub fn add(made: &mut List<'_>, numbers: Numbers) {
                     _ => Item { colour: colour.clone(), ..item },
                 }));
                 made.items.push(Item::text(&body.name, &frame, [0.0; 4], &number, Role::Number));
-                pins.push((printed_path(made, carrier.number, at), RADIUS));
+                pins.push((printed_path(made, carrier, at), RADIUS));
                 if numbers.names {
                     made.name(Role::Body, &body.name, frame);
                 }
@@ -55,18 +57,25 @@ pub fn add(made: &mut List<'_>, numbers: Numbers) {
                     true => (Role::Body, format!("{number} {}", one_line(&body.name))),
                     false => (Role::Number, number),
                 };
-                let frame = Frame::upright(carrier.number, carrier.center);
+                let frame = Frame::upright(carriers[0].number, carriers[0].center);
                 made.names.push(Name { of: body.name.clone(), words, role, frame });
             }
         }
     }
 }
 
-/// The body that carries the number of a body: a node in the middle of a beam.
-fn carrier<'a>(bodies: &'a [Body], body: &'a Body) -> &'a Body {
+/// The bodies that may carry the number of a body: the nodes of a beam, from its middle on.
+fn carriers<'a>(bodies: &'a [Body], body: &'a Body) -> Vec<&'a Body> {
     let is_inner = |other: &&Body| other.kind == NODE && beam_of(&other.name) == body.name;
-    let nodes: Vec<&Body> = bodies.iter().filter(is_inner).collect();
-    nodes.get(nodes.len() / 2).copied().unwrap_or(body)
+    let mut nodes: Vec<(usize, &Body)> = bodies.iter().filter(is_inner).enumerate().collect();
+    let middle = nodes.len() / 2;
+    nodes.sort_by_key(|(k, _)| k.abs_diff(middle));
+    let nodes = nodes.into_iter().map(|(_, node)| node);
+    if middle == 0 {
+        vec![body]
+    } else {
+        nodes.collect()
+    }
 }
 
 /// The circle around the number of a body.

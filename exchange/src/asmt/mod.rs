@@ -4,7 +4,7 @@
 //! |---|---|
 //! | assembly | `ground`; its name is the title |
 //! | parts with mass, centre, moments of inertia | bodies; the moment of inertia about the normal of the plane |
-//! | markers of a joint, a motion or a force | points |
+//! | markers | points |
 //! | revolute, cylindrical, spherical, universal and point-in-line joints across the plane | `revolute` |
 //! | translational, cylindrical, planar and line-in-plane joints in the plane | `translational` |
 //! | fixed | `weld` |
@@ -154,6 +154,7 @@ impl<'a> Assembly<'a> {
             let found = self.force(force, name_of(&path));
             self.told(force, &path, found);
         }
+        self.parts.remaining(&self.plane, &mut self.draft);
         self.tilting(&holds);
         self.leaving();
         self.analysis();

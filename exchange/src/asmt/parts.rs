@@ -196,6 +196,15 @@ impl Parts {
         draft.point(&part.name, name.rsplit('/').next().unwrap_or_default(), at)
     }
 
+    /// Adds the points of all markers, also of those that nothing uses.
+    pub(super) fn remaining(&self, plane: &Plane, draft: &mut Draft) {
+        let mut paths: Vec<(&String, &Marker)> = self.markers.iter().collect();
+        paths.sort_by_key(|(path, _)| path.as_str());
+        for (path, marker) in paths.into_iter().filter(|(path, _)| !path.ends_with("/MassMarker")) {
+            self.point(plane, draft, marker, path, [0.0; 3]);
+        }
+    }
+
     /// The angle of a direction, which is given in the fixed frame at the start, in the frame of the body.
     pub(super) fn angle(&self, plane: &Plane, part: usize, direction: Vector) -> f64 {
         let [x, y] = plane.flat(direction);

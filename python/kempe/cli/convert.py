@@ -24,6 +24,8 @@ EXAMPLES = """Examples:
 
   kempe convert four_bar.toml four_bar.xml
 
+  kempe convert hoecken.toml hoecken.asmt
+
   kempe convert motor_press.toml press.fmu --input stall --output ram.y --fmi 3.0
 """
 
@@ -63,7 +65,7 @@ def convert(  # noqa: PLR0917 - typer distinguishes options by their annotations
         typer.Option("--to", metavar="FORMAT", help="Format of OUT; by default its ending."),
     ] = None,
     partial: Annotated[
-        bool, typer.Option("--partial", help="Leave out what has no equal in kempe, and list it.")
+        bool, typer.Option("--partial", help="Leave out what OUT cannot contain, and list it.")
     ] = False,
     force: Annotated[
         bool, typer.Option("--force", "-f", help="Overwrite an existing file.")
@@ -81,20 +83,23 @@ def convert(  # noqa: PLR0917 - typer distinguishes options by their annotations
     chosen = to or output.suffix.lower().removeprefix(".")
     chosen = "mjcf" if chosen == "xml" else chosen
     _refuse_options(chosen, {"input": inputs, "output": outputs, "fmi": fmi, "analysis": analysis})
-    if chosen in ("dxf", "fmu", "mjcf"):
+    if chosen in ("asmt", "dxf", "fmu", "mjcf"):
+        from kempe.asmt.writer import write_asmt
         from kempe.draw.dxf import write_dxf
         from kempe.fmu.export import export_fmu
         from kempe.loading import load
         from kempe.mjcf.writer import write_mjcf
 
         case = load(file, partial=partial, form=form)
-        if chosen == "dxf":
+        unread = case.unread
+        if chosen == "asmt":
+            unread += write_asmt(case, output, partial=partial)
+        elif chosen == "dxf":
             write_dxf(case.start(), output)
         elif chosen == "mjcf":
             write_mjcf(case.start(), output)
         else:
             export_fmu(case, output, inputs or (), outputs, version=fmi or "2.0", analysis=analysis)
-        unread = case.unread
     else:
         unread = convert_file(file, output, form, to, partial=partial)
     console = answers()

@@ -10,8 +10,8 @@ from xml.etree import ElementTree as ET
 from kempe.base import files
 from kempe.base.arguments import explained
 from kempe.errors import ModelError
-from kempe.mjcf.constants import constant
 from kempe.mjcf.trees import GROUND, Branch, spanning_tree
+from kempe.model.constants import constant
 from kempe.model.infos import BodyInfo, ConstraintInfo, ForceInfo
 from kempe.results.state import State
 
@@ -253,7 +253,8 @@ class _Writer:
                 f"{force.name}: {min(other)} cannot be written as MJCF", name=force.name
             )
         value = {
-            key: constant(self.model, f"{force.name}.{key}", entry.get(key, 0.0)) for key in known
+            key: constant(self.model, f"{force.name}.{key}", entry.get(key, 0.0), "MJCF")
+            for key in known
         }
         if force.type == "spring_damper":
             self._line(tendons, world, force)

@@ -55,7 +55,7 @@ fn the_examples_with_light_bodies() {
         }
     }
     found.sort();
-    let beams = ["bistable_switch", "cross_spring_pivot", "leaf_spring_guide"];
+    let beams = ["bistable_switch", "compliant_gripper", "cross_spring_pivot", "leaf_spring_guide"];
     let links = ["pump_jack", "rack_steering"];
     let all = [&beams[..], &links].concat();
     assert_eq!(found, all, "each has a light link, or light nodes of a beam, between heavy bodies");

@@ -1,0 +1,1 @@
+"""Assemblies in the format `.asmt` of OndselSolver, the solver of the assemblies of FreeCAD."""
