@@ -67,14 +67,14 @@ struct Approaches {
     rates: Vec<f64>,
 }
 
-/// The contacts that touch: contacts that rest, and contacts with a closed gap.
+/// The contacts that touch: contacts that an equation of their own holds, and contacts with a closed gap.
 pub(super) fn touching(model: &Model, place: &StateAt<'_>, before: &[ForceMode]) -> Vec<usize> {
     let impacts =
         |k: &usize| matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Impacts { .. }));
     let all: Vec<usize> = with_modes(model).filter(impacts).list();
     let gaps = place.thresholds(model, &all);
     let touches = |(k, gap): &(usize, f64)| {
-        mode_of(before, *k).holds() || StateAt::is_closed(*gap, model, *k)
+        matches!(mode_of(before, *k), Mode::Holds(_)) || StateAt::is_closed(*gap, model, *k)
     };
     all.into_iter().zip(gaps).filter(touches).map(|(k, _)| k).list()
 }

@@ -35,7 +35,7 @@ use super::options::{ImpactOrder, RestitutionLaw};
 use super::passages::Struck;
 use crate::elements::{Behaviour, Mode};
 use crate::model::{ForceMode, Model};
-use dependence::holders;
+use dependence::{holders, keep_closed};
 use impacts::Hits;
 
 /// The modes of the next phase, and what happened.
@@ -74,8 +74,9 @@ pub(super) fn settle(
     let Hits { hits, impulses, impacts, couples, ended } =
         impacts::resolve(model, place, &touching, law)?;
     let jumped = (!hits.is_empty()).then_some(fastest);
-    let modes = holding::decide(model, place, before, (&touching, fired, jumped))?;
+    let mut modes = holding::decide(model, place, before, (&touching, fired, jumped))?;
     companions::check(model, place, &modes)?;
+    keep_closed(model, place, &touching, &mut modes);
     let collapsed = !ended.is_empty();
     let mut changed = ended.into_iter().map(|k| (k, COLLAPSE)).list();
     for (old, new) in before.iter().zip(&modes) {
