@@ -22,7 +22,7 @@ use super::super::model_cache::ModelCache;
 use super::super::options::RestitutionLaw;
 use super::super::redundant_rows::workspace_at;
 use super::companions;
-use super::impact::{Impact, Restitutions};
+use super::impact::{driver_work, Impact, Restitutions};
 use super::place::{largest, StateAt};
 use crate::elements::Mode;
 use crate::equations::kinematics::Motions;
@@ -92,8 +92,11 @@ pub(super) fn strike(
         for (own, x) in found.all.iter().zip(&impulses) {
             after.iter_mut().zip(&own.jump).for_each(|(v, jump)| *v += x * jump);
         }
-        let loss = before - kinetic(&after);
-        if loss >= -GROWS * before {
+        let energy = kinetic(&after);
+        let loss = before - energy;
+        // drivers may add energy
+        let taken = loss + driver_work(model, place.t, q, &found.rows(&impulses));
+        if taken >= -GROWS * before.max(energy) {
             return Ok(found.impact(contacts, &impulses, (after, loss, common)));
         }
         if law == RestitutionLaw::Newton {
@@ -225,20 +228,26 @@ impl Contacts {
         Some((0..n + m).map(of).list())
     }
 
+    /// The impulses of all rows of the closed model.
+    fn rows(&self, impulses: &[f64]) -> Vec<f64> {
+        let mut found = vec![0.0; self.closed.layout.n_rows];
+        for (own, x) in self.all.iter().zip(impulses) {
+            found.iter_mut().zip(&own.joints).for_each(|(sum, joint)| *sum += x * joint);
+        }
+        for (own, x) in self.all.iter().zip(impulses) {
+            found[own.row] = -own.sign * x;
+        }
+        found
+    }
+
     fn impact(
         self,
         contacts: &[usize],
         impulses: &[f64],
         (after, loss, common): (Vec<f64>, f64, Option<usize>),
     ) -> Impact {
+        let found = self.rows(impulses);
         let Self { closed, all, .. } = self;
-        let mut found = vec![0.0; closed.layout.n_rows];
-        for (own, x) in all.iter().zip(impulses) {
-            found.iter_mut().zip(&own.joints).for_each(|(sum, joint)| *sum += x * joint);
-        }
-        for (own, x) in all.iter().zip(impulses) {
-            found[own.row] = -own.sign * x;
-        }
         let pushes = |k: &&usize| {
             let own = all.iter().position(|own| own.force == **k);
             own.is_some_and(|at| impulses[at] > 0.0 || all[at].rate < 0.0)

@@ -31,8 +31,8 @@ use super::super::model_cache::ModelCache;
 use super::super::options::{ImpactOrder, RestitutionLaw};
 use super::super::passages::Struck;
 use super::super::redundant_rows::workspace_at;
-use super::impact::{Impact, Restitutions};
-use super::place::{mode_of, with_modes, StateAt, STILL};
+use super::impact::{driver_work, Impact, Restitutions};
+use super::place::{mode_of, unit, with_modes, StateAt, STILL};
 use super::{companions, friction_impact};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::energy;
@@ -133,9 +133,15 @@ pub(super) fn resolve(
     Ok(found)
 }
 
-/// The places of the touching contacts that approach faster than they may rest.
+/// The places of the touching contacts that approach faster than they may rest, and faster than the rounding errors of
+/// contacts that rest while others hit.
 fn approaching(model: &Model, touching: &[usize], rates: &[f64]) -> Vec<usize> {
-    let fast = |at: &usize| rates[*at] < -restitution(model, touching[*at]).1;
+    let relative = |(k, rate): (&usize, &f64)| rate.abs() / unit(model, *k);
+    let fastest = touching.iter().zip(rates).map(relative).fold(0.0, f64::max);
+    let fast = |at: &usize| {
+        let k = touching[*at];
+        rates[*at] < -restitution(model, k).1.max(STILL * fastest * unit(model, k))
+    };
     (0..touching.len()).filter(fast).list()
 }
 
@@ -257,8 +263,10 @@ fn hit(
         let jump = workspace.jump(&closed, t, q, &rates);
         let [dv, found] = jump.map_err(|breakdown| Failure::at_state(&closed, t, q, breakdown))?;
         let after: Vec<f64> = v.iter().zip(&dv).map(|(v, dv)| v + dv).list();
-        let loss = before - kinetic(&after);
-        let grows = loss < -1e-13 * before;
+        let energy = kinetic(&after);
+        let loss = before - energy;
+        // drivers may add energy
+        let grows = loss + driver_work(model, t, q, &found) < -1e-13 * before.max(energy);
         outcome = Some((after, found, loss, least.filter(|_| common)));
         if !grows {
             break;
