@@ -50,3 +50,23 @@ def test_each_ball_has_its_own_restitution(impacts: str) -> None:
             assert np.allclose(found[:2], (vx, vy), rtol=1e-9, atol=1e-8 * size), seed
             assert np.isclose(found[2], omega, rtol=1e-9, atol=1e-7), seed
         assert np.isclose(run.energy.dissipated[-1], lost, rtol=1e-8, atol=1e-9 * unit * size**2)
+
+
+@pytest.mark.parametrize("seed", range(count(4, 40)))
+def test_a_stop_behind_the_release_of_a_driver(seed: int) -> None:
+    rng = np.random.default_rng([37, seed])
+    size, mass = (10 ** rng.uniform(-3, 3, 2)).tolist()
+    rate, e, free = (float(rng.uniform(0.2, 0.9)) for _ in range(3))
+    m = kp.Model("lever", parameters={"limit": 0.8 * rate})
+    m.ground.points(O=(0, 0))
+    m.bar("lever", mass=mass, length=size, ends=("O", "P"))
+    m.revolute("pin", "ground.O", "lever.O")
+    m.coordinate_driver("motor", "pin.angle", value=f"{rate!r}*t", release=f"t > {0.5 * free!r}")
+    m.stop("stop", "pin.angle", upper="limit", restitution=e)
+    run = kp.dynamics(m, kp.assemble(m), t_end=1)
+    assert np.allclose(run.events["stop.hit"].t, 0.8)
+    assert np.isclose(run["lever.omega"][-1], -e * rate)
+    # the stop is met before the release
+    with pytest.raises(kp.SingularityError, match="stop closes at .* while motor holds") as caught:
+        kp.dynamics(m, kp.assemble(m), t_end=1, parameters={"limit": 0.4 * free * rate})
+    assert np.isclose(caught.value.solution.t[-1], 0.4 * free)

@@ -26,11 +26,12 @@
 //!
 //! `friction_impact.rs` contains the impacts of contacts with friction, and of all closed contacts together.
 
-use super::super::failure::Failure;
+use super::super::failure::{Failure, Reason};
 use super::super::model_cache::ModelCache;
 use super::super::options::{ImpactOrder, RestitutionLaw};
 use super::super::passages::Struck;
 use super::super::redundant_rows::workspace_at;
+use super::dependence::holders;
 use super::impact::{driver_work, Impact, Restitutions};
 use super::place::{mode_of, unit, with_modes, StateAt, STILL};
 use super::{companions, friction_impact};
@@ -103,6 +104,9 @@ pub(super) fn resolve(
         if approaching.is_empty() {
             break;
         }
+        for at in &approaching {
+            free_of_drivers(model, place, touching[*at])?;
+        }
         if found.impulses.is_empty() {
             found.impulses = vec![0.0; model.n_multipliers()];
         }
@@ -131,6 +135,26 @@ pub(super) fn resolve(
     found.hits.sort_unstable();
     found.hits.dedup();
     Ok(found)
+}
+
+/// A driver that holds the coordinate of a contact.
+pub(super) fn holder<'m>(model: &'m Model, place: &StateAt<'_>, k: usize) -> Option<&'m String> {
+    let by = holders(model, place, k);
+    let driver = (0..model.constraints.len()).find(|at| by.contains(*at))?;
+    Some(&model.constraints[driver].name)
+}
+
+/// Refuses an impact that a driver does not allow.
+///
+/// # Errors
+/// [`Failure`] that names the contact and the driver.
+fn free_of_drivers(model: &Model, place: &StateAt<'_>, k: usize) -> Result<(), Box<Failure>> {
+    let Some(driver) = holder(model, place, k) else { return Ok(()) };
+    let (t, name) = (place.t, model.forces[k].name.clone());
+    let message = format!(
+        "{name} closes at t = {t:.6} s while {driver} holds its coordinate, which no impact can change"
+    );
+    Err(Reason::Singular { t, name, message }.into())
 }
 
 /// The places of the touching contacts that approach faster than they may rest, and faster than the rounding errors of
