@@ -1,7 +1,7 @@
 """Blocks with several feet in a line, of which two suffice: they fall, slide and come to rest.
 
-The number of feet does not matter for a block that slides flat on an inclined floor: its motion is that of a point. A foot
-that other feet keep closed must begin to push where the thing below it rises.
+The number of feet does not matter for a block that slides flat on an inclined floor: its motion is
+that of a point. A foot that other feet keep closed must push where the thing below it rises.
 """
 
 import kempe as kp

@@ -1,7 +1,8 @@
 """Levers that hit a rough wall: the sliding ends together with the approach.
 
-Friction acts against the sliding. With the ratio r of the work of friction to that of the normal impulse, compression
-takes the impulse P = I ω / (g (1 + r)) and expansion e P, of which friction uses the part r.
+Friction acts against the sliding. With the ratio r of the work of friction to that of the normal
+impulse, compression takes the impulse P = I ω / (g (1 + r)) and expansion e P, of which friction
+uses the part r. The lever at the normal impulse is g.
 """
 
 import kempe as kp
@@ -23,7 +24,7 @@ def lever(seed: int) -> tuple[kp.Model, dict[str, float], dict[str, float]]:
     inertia = mass * size**2 * float(rng.uniform(0.2, 2))
     m.body("lever", mass=mass, inertia=inertia, points={"O": (0, 0), "P": (size, 0)})
     m.revolute("pin", "ground.O", "lever.O")
-    # the tip touches the wall at this angle of the lever; the wall turns away from the tangent of its circle
+    # the angle at which the tip touches, and that between the normal of the wall and its path
     touch, lean = rng.uniform(-3, 3), rng.uniform(-1.4, 1.4)
     tip = size * np.array((np.cos(touch), np.sin(touch)))
     out = touch + np.pi / 2 + lean  # the direction from the lever into the wall

@@ -1,6 +1,6 @@
 """Balls that a driven ram hits at one instant: each has its own restitution and friction.
 
-The driver adds energy, so that a growth of the kinetic energy is no fault of the law of impact.
+The driver adds energy, so the kinetic energy may grow in an impact.
 """
 
 import kempe as kp
@@ -20,7 +20,9 @@ def test_each_ball_has_its_own_restitution(impacts: str) -> None:
         m, m_time = kp.Model("ram"), 0.3
         m.ground.points(O=(0, 0))
         face = {"line": ((0, -9 * size), (0, 9 * size))}
-        m.body("ram", mass=unit, inertia=unit * size**2, points={"P": (0, 0)}, curves={"face": face})
+        m.body(
+            "ram", mass=unit, inertia=unit * size**2, points={"P": (0, 0)}, curves={"face": face}
+        )
         m.translational("guide", "ground.O", "ram.P")
         m.coordinate_driver("drive", "guide.displacement", value=f"{speed!r}*t")
         start: dict[str, float] = {}
@@ -67,6 +69,6 @@ def test_a_stop_behind_the_release_of_a_driver(seed: int) -> None:
     assert np.allclose(run.events["stop.hit"].t, 0.8)
     assert np.isclose(run["lever.omega"][-1], -e * rate)
     # the stop is met before the release
-    with pytest.raises(kp.SingularityError, match="stop closes at .* while motor holds") as caught:
+    with pytest.raises(kp.SingularityError, match=r"stop closes at .* while motor holds") as caught:
         kp.dynamics(m, kp.assemble(m), t_end=1, parameters={"limit": 0.4 * free * rate})
     assert np.isclose(caught.value.solution.t[-1], 0.4 * free)
