@@ -172,7 +172,7 @@ mod tests {
     fn problems_with_dependent_columns() {
         let mut random = Random::new(7);
         let mut of = |least: f64, most: f64| least + (most - least) * random.uniform();
-        for case in 0..500 {
+        for case in 0..5000 {
             let n = 2 + case % 5;
             let (friction, inertia) = (of(0.1, 0.9), 10_f64.powf(of(-1.5, 0.0)));
             let places: Vec<f64> = (0..n).map(|_| of(-0.6, 0.6)).list();
