@@ -126,7 +126,7 @@ impl PhasedRun {
         let mut passage = Passage::default();
         if modes::has_modes(base) {
             let model = course.own.as_ref().map_or(base, |own| &own.model);
-            check_modes(model, start, options, &mut course.at)?;
+            check_modes(model, start, options, (&mut course.at, &course.events))?;
             course.settle(base, (run, &mut passage))?;
             course.own = Own::of(base, &course.setting, course.at.t)?;
         }
@@ -363,10 +363,15 @@ fn check_modes(
     model: &Model,
     start: &State,
     options: &Options,
-    at: &mut Progress,
+    (at, events): (&mut Progress, &[Planned]),
 ) -> Result<(), Box<Failure>> {
     StartCheck::of_run(options).check(model, at.t, [&start.q, &start.v, &start.z])?;
-    modes::check(model, &StateAt { t: at.t, y: &mut at.y })
+    let released = |event: &Planned| match &event.effect {
+        Effect::Release(driver) => Some(driver.clone()),
+        _ => None,
+    };
+    let later: Vec<String> = events.iter().filter_map(released).list();
+    modes::check(model, &StateAt { t: at.t, y: &mut at.y }, &later)
 }
 
 /// Whether any force holds in a phase.

@@ -57,6 +57,35 @@ pub(super) fn independent(
     held
 }
 
+/// Contacts that touch and do not push, but that the equations of forces that hold, of joints and of drivers keep
+/// closed, are idle: their gaps consist of rounding errors.
+pub(super) fn keep_closed(
+    model: &Model,
+    place: &StateAt<'_>,
+    touching: &[usize],
+    modes: &mut [ForceMode],
+) {
+    let holds = |of: &&ForceMode| matches!(of.mode, Mode::Holds(_));
+    let held: Vec<ForceMode> = modes.iter().filter(holds).copied().list();
+    let rates = place.gap_rates(model, touching);
+    for (k, rate) in touching.iter().zip(rates) {
+        let Some(own) = modes.iter_mut().find(|of| of.force == *k) else { continue };
+        if own.mode != Mode::Free || rate > StateAt::slow(model, *k) {
+            continue;
+        }
+        let mut tried = held.clone();
+        tried.push(ForceMode::new(*k, Mode::Holds(place.sides(model, &[*k])[0])));
+        let phase = model.in_modes(&tried);
+        let found = dependent_equations(&phase, place.t, place.state(model)[0], &|| false);
+        let row = phase.forces[*k].held_row.expect("it holds");
+        let last = phase.layout.owner(row).0;
+        if found.iter().any(|of| of.group.contains(&last)) {
+            let slack = place.play(model, *k);
+            *own = ForceMode { slack, ..ForceMode::new(*k, Mode::Idle) };
+        }
+    }
+}
+
 /// The value at which a row of a phase is held: the coordinate's value if friction sticks, zero for a contact.
 fn value_of(phase: &Model, place: &StateAt<'_>, row: usize) -> f64 {
     let owner = phase.forces.iter().find(|item| item.held_row == Some(row));

@@ -12,13 +12,17 @@
 //! law takes two of them: compression ends with ġ ≥ 0; in expansion, Λ_N is at least e times that of compression
 //! (Glocker and Pfeiffer, *Multiple impacts with friction in rigid multibody systems*, Nonlinear Dynamics 7 (1995) 471).
 //! Newton's law takes one, with ġ⁺ + e ġ⁻ in place of ġ. μ is the coefficient of sliding friction.
+//!
+//! Where the sliding velocity ends together with the approach, as at a lever, every friction within its limits would solve
+//! the problem. The wanted one acted against the sliding until then. It is the limit of the solutions with a small rest of
+//! the approach.
 
 use super::super::failure::{Failure, Reason};
 use super::super::model_cache::ModelCache;
 use super::super::options::RestitutionLaw;
 use super::super::redundant_rows::workspace_at;
 use super::companions;
-use super::impact::{Impact, Restitutions};
+use super::impact::{driver_work, Impact, Restitutions};
 use super::place::{largest, StateAt};
 use crate::elements::Mode;
 use crate::equations::kinematics::Motions;
@@ -88,8 +92,11 @@ pub(super) fn strike(
         for (own, x) in found.all.iter().zip(&impulses) {
             after.iter_mut().zip(&own.jump).for_each(|(v, jump)| *v += x * jump);
         }
-        let loss = before - kinetic(&after);
-        if loss >= -GROWS * before {
+        let energy = kinetic(&after);
+        let loss = before - energy;
+        // drivers may add energy
+        let taken = loss + driver_work(model, place.t, q, &found.rows(&impulses));
+        if taken >= -GROWS * before.max(energy) {
             return Ok(found.impact(contacts, &impulses, (after, loss, common)));
         }
         if law == RestitutionLaw::Newton {
@@ -157,22 +164,24 @@ impl Contacts {
         let scale = largest(&rates).max(f64::MIN_POSITIVE);
         let rates: Vec<f64> = rates.iter().map(|rate| rate / scale).list();
         let none = vec![0.0; self.all.len()];
+        let part = |(k, rate): (usize, &f64)| if k < self.normals { -rate.min(0.0) } else { 0.0 };
+        let rest = |rates: &[f64]| -> Vec<f64> { rates.iter().enumerate().map(part).list() };
         let mut sum = match law {
             RestitutionLaw::Newton => {
                 let mut wanted = rates;
                 for (k, rate) in wanted[..self.normals].iter_mut().enumerate() {
                     *rate *= if *rate < 0.0 { 1.0 + e(k) } else { 1.0 };
                 }
-                self.solve(&wanted, &none)?
+                self.solve(&wanted, &none, &rest(&wanted))?
             }
             RestitutionLaw::Poisson => {
-                let compression = self.solve(&rates, &none)?;
+                let compression = self.solve(&rates, &none, &rest(&rates))?;
                 let least = |k: usize| if k < self.normals { e(k) * compression[k] } else { 0.0 };
                 let given: Vec<f64> = (0..self.all.len()).map(least).list();
                 let start = compression.iter().zip(&given).map(|(a, b)| a + b).list();
                 let more = match given.iter().all(|x| *x == 0.0) {
                     true => none,
-                    false => self.solve(&self.after(&rates, &start), &given)?,
+                    false => self.solve(&self.after(&rates, &start), &given, &none)?,
                 };
                 start.iter().zip(&more).map(|(a, b)| a + b).list()
             }
@@ -187,8 +196,9 @@ impl Contacts {
         rates.iter().zip(&self.compliance).map(|(rate, row)| rate + of(row)).list()
     }
 
-    /// The impulses that complement these rates. Friction may also use the normal impulses that are `given`.
-    fn solve(&self, rates: &[f64], given: &[f64]) -> Option<Vec<f64>> {
+    /// The impulses that complement these rates, as the limit for rates with a small part of `rest`. Friction may also use
+    /// the normal impulses that are `given`.
+    fn solve(&self, rates: &[f64], given: &[f64], rest: &[f64]) -> Option<Vec<f64>> {
         let (n, m) = (self.normals, self.all.len() - self.normals);
         // Λ_N, the two directions of friction, and the slack of each friction
         let column = |k: usize| if k < n + m { (k, 1.0) } else { (k - m, -1.0) };
@@ -211,9 +221,23 @@ impl Contacts {
             (a[slack][normal], b[slack]) = (mu, mu * given[normal]);
             (a[slack][n + k], a[slack][n + m + k]) = (-1.0, -1.0);
         }
-        let z = complementarity::solve(&a, &b)?;
+        let mut limit = vec![0.0; size];
+        limit[..n].copy_from_slice(&rest[..n]);
+        let z = complementarity::solve(&a, &b, &limit)?;
         let of = |k: usize| if k < n { z[k] } else { z[k] - z[k + m] };
         Some((0..n + m).map(of).list())
+    }
+
+    /// The impulses of all rows of the closed model.
+    fn rows(&self, impulses: &[f64]) -> Vec<f64> {
+        let mut found = vec![0.0; self.closed.layout.n_rows];
+        for (own, x) in self.all.iter().zip(impulses) {
+            found.iter_mut().zip(&own.joints).for_each(|(sum, joint)| *sum += x * joint);
+        }
+        for (own, x) in self.all.iter().zip(impulses) {
+            found[own.row] = -own.sign * x;
+        }
+        found
     }
 
     fn impact(
@@ -222,14 +246,8 @@ impl Contacts {
         impulses: &[f64],
         (after, loss, common): (Vec<f64>, f64, Option<usize>),
     ) -> Impact {
+        let found = self.rows(impulses);
         let Self { closed, all, .. } = self;
-        let mut found = vec![0.0; closed.layout.n_rows];
-        for (own, x) in all.iter().zip(impulses) {
-            found.iter_mut().zip(&own.joints).for_each(|(sum, joint)| *sum += x * joint);
-        }
-        for (own, x) in all.iter().zip(impulses) {
-            found[own.row] = -own.sign * x;
-        }
         let pushes = |k: &&usize| {
             let own = all.iter().position(|own| own.force == **k);
             own.is_some_and(|at| impulses[at] > 0.0 || all[at].rate < 0.0)

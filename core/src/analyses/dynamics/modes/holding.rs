@@ -24,9 +24,6 @@ const USED_UP: f64 = 1e-6;
 
 /// Height of a flight, as a fraction of the mechanism's size or in rad, below which a contact without losses rests.
 const LOW: f64 = 1e-10;
-/// Rate of a gap, as a fraction of the mechanism's size per second or in rad/s, below which the next flight is so low
-/// that rounding errors of the gap matter.
-const SLOW: f64 = 2e-7;
 /// Largest number of combinations that are tried.
 const MOST_TRIED: usize = 1500;
 /// Forces below this fraction of the forces of a state are noise.
@@ -110,10 +107,11 @@ fn give_slack(model: &Model, place: &StateAt<'_>, touching: &[usize], modes: &mu
     for own in modes {
         let at = touching.iter().position(|k| *k == own.force);
         own.slack = match (own.mode, at) {
-            (Mode::Free, Some(at)) if rates[at] > SLOW * unit(model, own.force) => 0.0,
+            (Mode::Free, Some(at)) if rates[at] > StateAt::slow(model, own.force) => 0.0,
             // a gap that was held is not exactly zero
             (Mode::Free, Some(at)) => place.rounding(model, own.force) + (-gaps[at]).max(0.0),
             (Mode::Holds(_), _) => noise,
+            (Mode::Idle, Some(_)) => place.play(model, own.force),
             _ => own.slack,
         };
     }

@@ -72,7 +72,7 @@ impl Impact {
 }
 
 /// Work of the impulses of drivers. The rates of their rows are -Φ_t before and after.
-fn driver_work(model: &Model, t: f64, q: &[f64], impulses: &[f64]) -> f64 {
+pub(super) fn driver_work(model: &Model, t: f64, q: &[f64], impulses: &[f64]) -> f64 {
     if !model.driven {
         return 0.0;
     }

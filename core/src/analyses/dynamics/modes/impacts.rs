@@ -26,13 +26,14 @@
 //!
 //! `friction_impact.rs` contains the impacts of contacts with friction, and of all closed contacts together.
 
-use super::super::failure::Failure;
+use super::super::failure::{Failure, Reason};
 use super::super::model_cache::ModelCache;
 use super::super::options::{ImpactOrder, RestitutionLaw};
 use super::super::passages::Struck;
 use super::super::redundant_rows::workspace_at;
-use super::impact::{Impact, Restitutions};
-use super::place::{mode_of, with_modes, StateAt, STILL};
+use super::dependence::holders;
+use super::impact::{driver_work, Impact, Restitutions};
+use super::place::{mode_of, unit, with_modes, StateAt, STILL};
 use super::{companions, friction_impact};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::energy;
@@ -67,14 +68,14 @@ struct Approaches {
     rates: Vec<f64>,
 }
 
-/// The contacts that touch: contacts that rest, and contacts with a closed gap.
+/// The contacts that touch: contacts that an equation of their own holds, and contacts with a closed gap.
 pub(super) fn touching(model: &Model, place: &StateAt<'_>, before: &[ForceMode]) -> Vec<usize> {
     let impacts =
         |k: &usize| matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Impacts { .. }));
     let all: Vec<usize> = with_modes(model).filter(impacts).list();
     let gaps = place.thresholds(model, &all);
     let touches = |(k, gap): &(usize, f64)| {
-        mode_of(before, *k).holds() || StateAt::is_closed(*gap, model, *k)
+        matches!(mode_of(before, *k), Mode::Holds(_)) || StateAt::is_closed(*gap, model, *k)
     };
     all.into_iter().zip(gaps).filter(touches).map(|(k, _)| k).list()
 }
@@ -102,6 +103,9 @@ pub(super) fn resolve(
         let approaching = approaching(model, touching, &rates);
         if approaching.is_empty() {
             break;
+        }
+        for at in &approaching {
+            free_of_drivers(model, place, touching[*at])?;
         }
         if found.impulses.is_empty() {
             found.impulses = vec![0.0; model.n_multipliers()];
@@ -133,9 +137,35 @@ pub(super) fn resolve(
     Ok(found)
 }
 
-/// The places of the touching contacts that approach faster than they may rest.
+/// A driver that holds the coordinate of a contact.
+pub(super) fn holder<'m>(model: &'m Model, place: &StateAt<'_>, k: usize) -> Option<&'m String> {
+    let by = holders(model, place, k);
+    let driver = (0..model.constraints.len()).find(|at| by.contains(*at))?;
+    Some(&model.constraints[driver].name)
+}
+
+/// Refuses an impact that a driver does not allow.
+///
+/// # Errors
+/// [`Failure`] that names the contact and the driver.
+fn free_of_drivers(model: &Model, place: &StateAt<'_>, k: usize) -> Result<(), Box<Failure>> {
+    let Some(driver) = holder(model, place, k) else { return Ok(()) };
+    let (t, name) = (place.t, model.forces[k].name.clone());
+    let message = format!(
+        "{name} closes at t = {t:.6} s while {driver} holds its coordinate, which no impact can change"
+    );
+    Err(Reason::Singular { t, name, message }.into())
+}
+
+/// The places of the touching contacts that approach faster than they may rest, and faster than the rounding errors of
+/// contacts that rest while others hit.
 fn approaching(model: &Model, touching: &[usize], rates: &[f64]) -> Vec<usize> {
-    let fast = |at: &usize| rates[*at] < -restitution(model, touching[*at]).1;
+    let relative = |(k, rate): (&usize, &f64)| rate.abs() / unit(model, *k);
+    let fastest = touching.iter().zip(rates).map(relative).fold(0.0, f64::max);
+    let fast = |at: &usize| {
+        let k = touching[*at];
+        rates[*at] < -restitution(model, k).1.max(STILL * fastest * unit(model, k))
+    };
     (0..touching.len()).filter(fast).list()
 }
 
@@ -257,8 +287,10 @@ fn hit(
         let jump = workspace.jump(&closed, t, q, &rates);
         let [dv, found] = jump.map_err(|breakdown| Failure::at_state(&closed, t, q, breakdown))?;
         let after: Vec<f64> = v.iter().zip(&dv).map(|(v, dv)| v + dv).list();
-        let loss = before - kinetic(&after);
-        let grows = loss < -1e-13 * before;
+        let energy = kinetic(&after);
+        let loss = before - energy;
+        // drivers may add energy
+        let grows = loss + driver_work(model, t, q, &found) < -1e-13 * before.max(energy);
         outcome = Some((after, found, loss, least.filter(|_| common)));
         if !grows {
             break;

@@ -35,7 +35,7 @@ use super::options::{ImpactOrder, RestitutionLaw};
 use super::passages::Struck;
 use crate::elements::{Behaviour, Mode};
 use crate::model::{ForceMode, Model};
-use dependence::holders;
+use dependence::keep_closed;
 use impacts::Hits;
 
 /// The modes of the next phase, and what happened.
@@ -74,8 +74,9 @@ pub(super) fn settle(
     let Hits { hits, impulses, impacts, couples, ended } =
         impacts::resolve(model, place, &touching, law)?;
     let jumped = (!hits.is_empty()).then_some(fastest);
-    let modes = holding::decide(model, place, before, (&touching, fired, jumped))?;
+    let mut modes = holding::decide(model, place, before, (&touching, fired, jumped))?;
     companions::check(model, place, &modes)?;
+    keep_closed(model, place, &touching, &mut modes);
     let collapsed = !ended.is_empty();
     let mut changed = ended.into_iter().map(|k| (k, COLLAPSE)).list();
     for (old, new) in before.iter().zip(&modes) {
@@ -91,11 +92,16 @@ pub(super) fn settle(
     Ok(Settled { modes, hits, impulses, impacts, couples, collapsed, changed })
 }
 
-/// Refuses a start beyond a stop or contact with restitution, and a stop whose coordinate is held by drivers.
+/// Refuses a start beyond a stop or contact with restitution, and a stop whose coordinate is held by drivers that no
+/// condition releases.
 ///
 /// # Errors
 /// [`Failure`] with [`Reason::Start`].
-pub(super) fn check(model: &Model, place: &StateAt<'_>) -> Result<(), Box<Failure>> {
+pub(super) fn check(
+    model: &Model,
+    place: &StateAt<'_>,
+    released_later: &[String],
+) -> Result<(), Box<Failure>> {
     let t = place.t;
     let all: Vec<usize> = rigid_contacts(model).list();
     for (k, gap) in all.iter().zip(place.thresholds(model, &all)) {
@@ -113,9 +119,10 @@ pub(super) fn check(model: &Model, place: &StateAt<'_>) -> Result<(), Box<Failur
         return Err(Reason::Start { t, name, message, hint }.into());
     }
     for k in all {
-        let by = holders(model, place, k);
-        let Some(at) = (0..model.constraints.len()).find(|at| by.contains(*at)) else { continue };
-        let driver = &model.constraints[at].name;
+        let Some(driver) = impacts::holder(model, place, k) else { continue };
+        if released_later.contains(driver) {
+            continue;
+        }
         let name = model.forces[k].name.clone();
         let message =
             format!("{name} acts on a coordinate that {driver} holds, which no impact can change");

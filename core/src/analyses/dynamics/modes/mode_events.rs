@@ -108,8 +108,9 @@ pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction,
     // whether a compliant contact whose friction has modes is closed
     let rubs = item.partner.map(|of| model.forces[of].mode).filter(|of| *of != Mode::Open);
     let closed = rubs.map(|mode| mode != Mode::Free);
-    // the slack of a contact that is open is that of its friction
-    let named = item.partner.filter(|_| closed == Some(false)).unwrap_or(force);
+    let compliant = matches!(item.element.behaviour(), Some(Behaviour::Compliant { .. }));
+    // the slack of a compliant contact that is open is that of its friction, because it has no mode of its own
+    let named = item.partner.filter(|_| compliant && closed == Some(false)).unwrap_or(force);
     let own = model.blueprint.modes.iter().find(|of| of.force == named);
     let (slack, held_by) = own.map(|of| (of.slack, of.held_by)).unwrap_or_default();
     let threshold = |sign: f64| ModeFunction::Threshold { force, sign, slack, held_by };
@@ -130,6 +131,9 @@ pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction,
         (Some(Behaviour::Compliant { .. }), _, GRAZE) => (gap, falling),
         (Some(Behaviour::Sticks), Mode::Slides(sign), 0) => (threshold(sign), falling),
         (Some(Behaviour::Impacts { .. }), Mode::Free, 0 | GRAZE) => (gap, falling),
+        // the others that hold it may move apart or together
+        (Some(Behaviour::Impacts { .. }), Mode::Idle, 0) => (gap, falling),
+        (Some(Behaviour::Impacts { .. }), Mode::Idle, 1) => (threshold(-1.0), falling),
         (Some(_), Mode::Holds(_), 1) => (reserve, falling),
         (Some(Behaviour::Sticks), Mode::Idle | Mode::Follows { .. }, 1) => {
             (ModeFunction::Begins { force, at: slack, held_by }, falling)

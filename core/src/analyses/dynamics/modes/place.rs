@@ -20,6 +20,10 @@ pub const STILL: f64 = 1e-9;
 /// Largest gap of a contact that touches: relative to the size of the mechanism, or in rad.
 const TOUCHING: f64 = 1e-10;
 
+/// Rate of a gap, as a fraction of the mechanism's size per second or in rad/s, below which the next flight is so low
+/// that rounding errors of the gap matter.
+const SLOW: f64 = 2e-7;
+
 /// Uncertainty of a gap in floating-point spacings.
 const ROUNDING: f64 = 64.0;
 
@@ -125,6 +129,17 @@ impl StateAt<'_> {
     /// Whether the gap of a contact is closed.
     pub fn is_closed(gap: f64, model: &Model, force: usize) -> bool {
         gap <= TOUCHING * unit(model, force)
+    }
+
+    /// The gap, in both directions, at which a contact no longer rests that other equations keep closed.
+    pub fn play(&self, model: &Model, force: usize) -> f64 {
+        let gap = self.thresholds(model, &[force])[0];
+        2.0 * TOUCHING * unit(model, force) + (-gap).max(0.0)
+    }
+
+    /// A rate of a gap below which the next flight is so low that rounding errors of the gap matter.
+    pub fn slow(model: &Model, force: usize) -> f64 {
+        SLOW * unit(model, force)
     }
 }
 
