@@ -342,19 +342,6 @@ impl<S: Real> Largest<S> {
         self.sum += x;
     }
 
-    /// Includes the numbers of another maximum.
-    #[inline(always)]
-    pub fn join(&mut self, other: Self) {
-        self.most = self.most.max(other.most);
-        self.sum += other.sum;
-    }
-
-    /// The maximum of c times the numbers so far, c > 0.
-    #[inline(always)]
-    pub fn scaled(self, c: S) -> Self {
-        Self { most: c * self.most, sum: c * self.sum }
-    }
-
     /// The largest magnitude so far.
     #[inline(always)]
     pub fn get(&self) -> f64 {

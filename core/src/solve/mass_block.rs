@@ -34,12 +34,6 @@ impl<S: Real> InverseMass<S> {
         Self { translation: [d0, d1], along: d2, direction, held: zero }
     }
 
-    /// The inverse of a block of `size` unknowns with equal diagonal entries.
-    #[inline]
-    pub fn first(size: usize, inverse: S) -> Self {
-        Self::diagonal(indexed(|k| if k < size { inverse } else { S::one() }))
-    }
-
     /// W⁻¹ f.
     #[inline(always)]
     pub(super) fn times(&self, f: &[S; 3]) -> [S; 3] {
