@@ -8,8 +8,8 @@
 use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Reason};
 use super::options::{name, options};
 use super::record::{
-    Analysis, Fact, NamedNumber, NumberList, Observer, Outcome, Record, StartState, Subject,
-    Unfinished,
+    Analysis, Fact, NamedNumber, NumberList, Observer, Outcome, Record, RunResult, StartState,
+    Subject,
 };
 use super::{second_order, State};
 use crate::elements::QuantityKind;
@@ -56,12 +56,7 @@ impl Analysis for Options {
         }),
     ];
 
-    fn run(
-        &self,
-        subject: &Subject<'_>,
-        start: &StartState,
-        observer: Observer<'_>,
-    ) -> Result<Record, Box<Unfinished>> {
+    fn run(&self, subject: &Subject<'_>, start: &StartState, observer: Observer<'_>) -> RunResult {
         let over = match &self.over {
             Some(over) => over.clone(),
             None => subject.only_driver(start)?,

@@ -2,7 +2,7 @@
 
 use super::breakdown::Breakdown;
 use super::structure::Group;
-use crate::math::{indexed, Listed, Real};
+use crate::math::{Listed, Real};
 
 /// Smallest accepted ratio of a pivot to the diagonal entry before cancellation.
 pub const PIVOT_TOLERANCE: f64 = 1e-13;

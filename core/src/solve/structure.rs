@@ -15,7 +15,6 @@ pub struct Group {
 
 impl Group {
     /// A group of three unknowns.
-    #[inline]
     pub fn body(coupled: bool) -> Self {
         Self { size: MOST, coupled }
     }
@@ -38,7 +37,6 @@ pub struct RowBlock {
 ///
 /// # Panics
 /// If the index needs more than 32 bits.
-#[inline]
 pub(super) fn index(i: usize) -> u32 {
     u32::try_from(i).expect("fewer than 2^32 entries")
 }
