@@ -24,8 +24,7 @@
 //! | `statistics` | statistics with derivatives |
 //! | `extremes` | extreme values with derivatives |
 //! | `integrals` | integrals, means and root mean squares with derivatives |
-//! | `numbers` | the numbers of results that are not motions |
-//! | `gradient` | all numbers and all variables of a request |
+//! | `gradient` | a variant with its variables; all numbers of a request |
 //! | `at_outputs` | extreme values at the outputs |
 //! | `at_times` | measures and all variables of a request at given times |
 
@@ -43,7 +42,6 @@ mod integrals;
 mod limits;
 mod modes;
 mod motion;
-mod numbers;
 mod ode;
 mod reader;
 mod run_ends;
