@@ -186,10 +186,7 @@ pub(super) fn of_rates(
         met.pop();
         met.sort_unstable();
         let others = dependent(model, t, q, (&met, last), stop)?;
-        let m = model.layout.n_rows;
-        let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
-        let motions = Motions::at(&model.layout, q, &v);
-        constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
+        let [_, rate, _] = constraints::terms_at(model, &Motions::at(&model.layout, q, &v), t);
         let rows = model.layout.constraints[last].rows.clone();
         let by = model.constraints[last].largest(&rate[rows]);
         let found = Contradiction { met: others, missed: last, by, order: 1 };
@@ -213,10 +210,8 @@ pub(super) fn of_accelerations(
     let kept: Vec<usize> = (0..extended.constraints.len()).filter(|k| !left_out.contains(k)).list();
     let mut v = vec![0.0; q.len()];
     velocities::project(&keeping(extended, &kept), request.t, q, &mut v);
-    let m = model.layout.n_rows;
-    let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
     let motions = Motions::at(&model.layout, q, &v);
-    constraints::velocity_terms(model, &motions, request.t, &mut phi, &mut rate, &mut gamma);
+    let [_, _, gamma] = constraints::terms_at(model, &motions, request.t);
     let scales = row_scales(model);
     redundant.iter().find_map(|one| {
         let missed = last(one)?;

@@ -14,9 +14,9 @@ use crate::analyses::State;
 use crate::elements::QuantityKind;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
-use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
+use crate::equations::sensitivity::{constants, variables_from, Sensitivity, Slope, ABREAST};
 use crate::equations::{constraints, dense};
-use crate::math::{Dual, Listed, Real};
+use crate::math::{Listed, Real};
 use crate::model::{size, Model};
 
 impl ReadyVariant<'_> {
@@ -123,15 +123,11 @@ fn at_stop(
     }
     let (lifted, unknowns) = (model.lift::<Slope>(), [q, &[t]].concat());
     for first in (0..=n).step_by(ABREAST) {
-        let seed = |(k, x): (usize, &f64)| match k.checked_sub(first) {
-            Some(place) if place < ABREAST => Dual::variable(*x, place),
-            _ => Slope::constant(*x),
-        };
-        let at: Vec<Slope> = unknowns.iter().enumerate().map(seed).list();
+        let at = variables_from(first, &unknowns);
         let found = gap(&lifted, at[n], &at[..n]);
         matrix.extend(found.slope.iter().take(n + 1 - first));
     }
-    let q: Vec<Slope> = q.iter().map(|q| Slope::constant(*q)).list();
+    let q = constants(q);
     let mut residual = over.open(Slope::constant(t), &q);
     residual.push(gap(&over.model, Slope::constant(t), &q));
     Ok(implicit(matrix, &unknowns, &residual)?[n].slope)
