@@ -28,7 +28,7 @@ use super::dae::{
 use super::error_weights::ErrorWeights;
 use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
-use super::implicit_state::ImplicitState;
+use super::implicit_state::{serves, ImplicitState};
 use super::right_hand_side::all_finite;
 
 /// Largest number of iterations with one matrix.
@@ -37,9 +37,6 @@ const MOST: usize = 10;
 const MATRICES: usize = 3;
 /// A matrix of an earlier step is replaced if one iteration does not reduce the error below this fraction.
 const SLOW: f64 = 0.2;
-/// Relative difference of two step sizes below which the steps share a matrix. Differences of times are subject to
-/// rounding.
-const SAME: f64 = 1e-6;
 /// Relative size of corrections that are rounding errors, compared with the largest coordinate.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Largest error that Newton's iteration may leave, as a fraction of the tolerance.
@@ -173,7 +170,7 @@ impl AlphaStep {
         scale: &mut ErrorWeights,
     ) -> bool {
         self.predict(h);
-        let reusable = self.factored.is_some_and(|made_for| (made_for - h).abs() <= SAME * h.abs());
+        let reusable = serves(self.factored, h);
         if reusable && self.newton(system, (t, h), scale, SLOW) {
             return true;
         }

@@ -14,7 +14,7 @@ use super::implicit_stepper::{ImplicitScheme, ImplicitStepper};
 use super::implicit_steps::ImplicitSteps;
 use super::interpolant::HERMITE;
 use super::step_control::StepControl;
-use super::step_size::{least_step, Control, StepSize};
+use super::step_size::{least_step, Control, StepSize, KEEP};
 use super::stepper::{BoxedStepper, ImplicitMethod};
 use crate::math::Listed;
 
@@ -27,8 +27,6 @@ const SHORTEN: f64 = 0.25;
 /// Largest growth of a step. A step damps a stiff motion by the factor ρ, and a longer step must not amplify it more
 /// than that.
 const GROWTH: f64 = 1.5;
-/// The step and the matrix are kept if the step could grow by less than this factor.
-const KEEP: f64 = 1.2;
 
 /// The generalized-α method with its options.
 #[derive(Clone, Debug, PartialEq)]

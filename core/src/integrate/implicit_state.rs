@@ -76,3 +76,12 @@ impl ImplicitState {
         out[2 * n + s..].copy_from_slice(&self.powers);
     }
 }
+
+/// Relative difference of two step sizes below which the steps share their matrices. Differences of times are subject
+/// to rounding.
+const SAME: f64 = 1e-6;
+
+/// Whether the matrices of a step serve a step of size `h`.
+pub(super) fn serves(made_for: Option<f64>, h: f64) -> bool {
+    made_for.is_some_and(|made_for| (made_for - h).abs() <= SAME * h.abs())
+}

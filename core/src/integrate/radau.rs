@@ -15,7 +15,7 @@ use super::radau_coefficients::{dot, A, DEGREE, ERROR, EXTENSION, REAL};
 use super::radau_step::{NewtonLimits, NewtonOutcome, RadauStep, ROWS};
 use super::right_hand_side::all_finite;
 use super::step_control::StepControl;
-use super::step_size::least_step;
+use super::step_size::{least_step, KEEP};
 use super::stepper::{BoxedStepper, ImplicitMethod};
 
 /// Order of the error estimate.
@@ -25,8 +25,6 @@ const SAFETY: f64 = 0.9;
 /// Bounds of the factor from one step to the next.
 const MIN_FACTOR: f64 = 0.2;
 const MAX_FACTOR: f64 = 8.0;
-/// The step and the factors are kept if the step could grow by less than this factor.
-const KEEP: f64 = 1.2;
 /// A tangent is kept while Newton's iteration converges at this rate or faster.
 const FAST: f64 = 1e-3;
 /// Factor on the step after a trial without convergence.

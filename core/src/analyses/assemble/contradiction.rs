@@ -5,7 +5,7 @@
 //! shows which ones. A row that is dependent only at a limit of the motion, such as a dead point, is not a
 //! contradiction. Dependence is therefore also checked at a neighbouring position.
 
-use super::culprits::OpenGroup;
+use super::culprits::{OpenGroup, MOST_ROWS};
 use super::failure::{freed, Failure, Fault};
 use super::holding::SET;
 use super::openings::Openings;
@@ -26,8 +26,6 @@ use crate::model::{is_weld, listed, row_scales, shown, Model};
 use crate::solve::RANK_TOLERANCE;
 use std::sync::Arc;
 
-/// Largest number of equations of a model for which contradictions are searched.
-const MOST_ROWS: usize = 300;
 /// Distance of the neighbouring position, rad.
 const NEIGHBOUR: f64 = 0.02;
 /// Largest relative residual of velocities that are compatible.
