@@ -4,7 +4,7 @@
 
 use super::base::OverBase;
 use super::real::{difference, ByValues, Lift, Real};
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A value with its derivatives with respect to `N` seeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,18 +103,7 @@ impl<const N: usize, S: Real> Neg for Dual<N, S> {
         Self { value: -self.value, slope }
     }
 }
-impl<const N: usize, S: Real> AddAssign for Dual<N, S> {
-    #[inline]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl<const N: usize, S: Real> SubAssign for Dual<N, S> {
-    #[inline]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
-}
+super::assign::assign!({const N: usize, S: Real} Dual<N, S>);
 
 impl<S: Real> OverBase for Dual<3, S> {
     type Base = S::Three;
@@ -242,22 +231,7 @@ where
     fn spread(self) -> f64 {
         self.value.spread()
     }
-    #[inline]
-    fn least_magnitude(self) -> f64 {
-        self.value.least_magnitude()
-    }
-    #[inline]
-    fn largest_magnitude(self) -> f64 {
-        self.value.largest_magnitude()
-    }
-    #[inline]
-    fn of_lanes(values: [f64; 4]) -> Self {
-        Self::lift(S::of_lanes(values))
-    }
-    #[inline]
-    fn in_lanes(self) -> [f64; 4] {
-        self.value.in_lanes()
-    }
+    super::real::by_value!(|self| self.value);
     fn of_values(f: &dyn ByValues, x: &[Self]) -> Self {
         let (mut at, mut direction) = (vec![S::zero(); x.len()], vec![S::zero(); x.len()]);
         for (at, x) in at.iter_mut().zip(x) {

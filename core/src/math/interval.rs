@@ -7,7 +7,7 @@
 
 use super::real::Real;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// All numbers from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,16 +121,7 @@ impl Neg for Interval {
         Self { low: -self.high, high: -self.low }
     }
 }
-impl AddAssign for Interval {
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl SubAssign for Interval {
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
-}
+super::assign::assign!(Interval);
 
 super::base::is_base!(Interval, super::dual::Dual<1, Interval>);
 

@@ -8,7 +8,7 @@ use super::base::OverBase;
 use super::dual::Dual;
 use super::real::{ByValues, Lift, Real};
 use crate::math::Listed;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A quantity with its first and second time derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,18 +91,7 @@ impl<S: Real> Neg for Jet<S> {
         Self::new(-self.value, -self.rate, -self.second)
     }
 }
-impl<S: Real> AddAssign for Jet<S> {
-    #[inline]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl<S: Real> SubAssign for Jet<S> {
-    #[inline]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
-}
+super::assign::assign!({S: Real} Jet<S>);
 
 impl<S: Real> OverBase for Jet<S> {
     type Base = S::Base;
@@ -234,22 +223,7 @@ impl<S: Real> Real for Jet<S> {
     fn floor(self) -> Self {
         Self::lift(self.value.floor())
     }
-    #[inline]
-    fn least_magnitude(self) -> f64 {
-        self.value.least_magnitude()
-    }
-    #[inline]
-    fn largest_magnitude(self) -> f64 {
-        self.value.largest_magnitude()
-    }
-    #[inline]
-    fn of_lanes(values: [f64; 4]) -> Self {
-        Self::lift(S::of_lanes(values))
-    }
-    #[inline]
-    fn in_lanes(self) -> [f64; 4] {
-        self.value.in_lanes()
-    }
+    super::real::by_value!(|self| self.value);
     fn of_values(f: &dyn ByValues, x: &[Self]) -> Self {
         // along the path x + ẋ τ + ẍ τ²/2
         let at = |tau: f64| -> S {

@@ -4,7 +4,7 @@ use super::array::each;
 use super::real::{ByValues, Lift, Real};
 use super::sine;
 use crate::math::Listed;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 use wide::f64x4;
 
 /// [`Lanes::WIDTH`] independent values of one quantity, one for each state or design.
@@ -172,18 +172,7 @@ impl Neg for Lanes {
         Self(self.0 ^ f64x4::splat(-0.0))
     }
 }
-impl AddAssign for Lanes {
-    #[inline(always)]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl SubAssign for Lanes {
-    #[inline(always)]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
-}
+super::assign::assign!(Lanes);
 
 super::base::is_base!(Lanes);
 

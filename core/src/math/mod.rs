@@ -8,6 +8,7 @@
 //! Linear equations may also be [`Complex`]; they require only a [`Field`].
 
 mod array;
+pub(crate) mod assign;
 pub(crate) mod base;
 mod complex;
 mod dual;

@@ -157,6 +157,29 @@ pub trait Real:
     }
 }
 
+/// The methods of [`Real`] that a scalar has from its value of type `S`.
+macro_rules! by_value {
+    (|$self:ident| $value:expr) => {
+        #[inline]
+        fn least_magnitude($self) -> f64 {
+            $value.least_magnitude()
+        }
+        #[inline]
+        fn largest_magnitude($self) -> f64 {
+            $value.largest_magnitude()
+        }
+        #[inline]
+        fn of_lanes(values: [f64; 4]) -> Self {
+            Self::lift(S::of_lanes(values))
+        }
+        #[inline]
+        fn in_lanes($self) -> [f64; 4] {
+            $value.in_lanes()
+        }
+    };
+}
+pub(super) use by_value;
+
 impl Real for f64 {
     #[inline]
     fn constant(x: f64) -> Self {

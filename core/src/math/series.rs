@@ -9,7 +9,7 @@
 use super::base::OverBase;
 use super::dual::Dual;
 use super::real::{Lift, Real};
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Largest exponent of a power that is computed by products; `f64` computes such powers in the same way.
 const MOST_PRODUCTS: f64 = 16.0;
@@ -185,18 +185,7 @@ impl<const N: usize, S: Real> Neg for TaylorSeries<N, S> {
         self.with(self, |a, _| -a)
     }
 }
-impl<const N: usize, S: Real> AddAssign for TaylorSeries<N, S> {
-    #[inline]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl<const N: usize, S: Real> SubAssign for TaylorSeries<N, S> {
-    #[inline]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
-}
+super::assign::assign!({const N: usize, S: Real} TaylorSeries<N, S>);
 
 impl<const N: usize, S: Real> OverBase for TaylorSeries<N, S> {
     type Base = S::Base;
@@ -289,18 +278,7 @@ impl<const N: usize, S: Real> Real for TaylorSeries<N, S> {
     fn floor(self) -> Self {
         Self::lift(self.0[0].floor())
     }
-    fn least_magnitude(self) -> f64 {
-        self.0[0].least_magnitude()
-    }
-    fn largest_magnitude(self) -> f64 {
-        self.0[0].largest_magnitude()
-    }
-    fn in_lanes(self) -> [f64; 4] {
-        self.0[0].in_lanes()
-    }
-    fn of_lanes(values: [f64; 4]) -> Self {
-        Self::lift(S::of_lanes(values))
-    }
+    super::real::by_value!(|self| self.0[0]);
     fn is_constant(self) -> bool {
         let zero = |x: &S| x.is_constant() && x.largest_magnitude() == 0.0;
         self.0[0].is_constant() && self.0[1..].iter().all(zero)

@@ -4,7 +4,7 @@ use super::arena::{Node, ONE, ZERO};
 use super::function::Function;
 use super::record::{constant, with, Symbolic};
 use crate::math::Real;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 fn call(function: Function, x: Symbolic) -> Symbolic {
     with(|arena, own| arena.call(function, &[own(x)]))
@@ -43,16 +43,7 @@ impl Neg for Symbolic {
         with(|arena, own| arena.sum(vec![(own(self), -1.0)]))
     }
 }
-impl AddAssign for Symbolic {
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl SubAssign for Symbolic {
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
-}
+crate::math::assign::assign!(Symbolic);
 
 crate::math::base::is_base!(Symbolic);
 
