@@ -47,7 +47,7 @@ impl Neg for Complex {
         Self::new(-self.re, -self.im)
     }
 }
-super::assign::assign!(Complex);
+super::operators::assign!(Complex);
 
 impl Field for Complex {
     #[inline(always)]

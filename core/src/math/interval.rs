@@ -7,7 +7,6 @@
 
 use super::real::Real;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// All numbers from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,44 +83,21 @@ impl Interval {
     }
 }
 
-impl Add for Interval {
-    type Output = Self;
-    fn add(self, o: Self) -> Self {
-        Self::rounded(self.low + o.low, self.high + o.high)
-    }
-}
-impl Sub for Interval {
-    type Output = Self;
-    fn sub(self, o: Self) -> Self {
-        Self::rounded(self.low - o.high, self.high - o.low)
-    }
-}
-impl Mul for Interval {
-    type Output = Self;
-    fn mul(self, o: Self) -> Self {
+super::operators::operators! {Interval: |a, b|
+    + Self::rounded(a.low + b.low, a.high + b.high),
+    - Self::rounded(a.low - b.high, a.high - b.low),
+    * {
         // zero times infinity is zero here: an infinite bound is not a number of the interval
         let product = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
-        let corners = |a| [product(a, o.low), product(a, o.high)];
-        Self::of([corners(self.low), corners(self.high)].as_flattened())
-    }
+        let corners = |a| [product(a, b.low), product(a, b.high)];
+        Self::of([corners(a.low), corners(a.high)].as_flattened())
+    },
+    / match b.contains_zero() {
+        true => Self::ALL,
+        false => a * Self::rounded(1.0 / b.high, 1.0 / b.low),
+    },
+    negative Self { low: -a.high, high: -a.low },
 }
-impl Div for Interval {
-    type Output = Self;
-    fn div(self, o: Self) -> Self {
-        if o.contains_zero() {
-            return Self::ALL;
-        }
-        let inverse = Self::rounded(1.0 / o.high, 1.0 / o.low);
-        self * inverse
-    }
-}
-impl Neg for Interval {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self { low: -self.high, high: -self.low }
-    }
-}
-super::assign::assign!(Interval);
 
 super::base::is_base!(Interval, super::dual::Dual<1, Interval>);
 

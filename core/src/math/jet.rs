@@ -8,7 +8,6 @@ use super::base::OverBase;
 use super::dual::Dual;
 use super::real::{ByValues, Lift, Real};
 use crate::math::Listed;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A quantity with its first and second time derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,48 +49,20 @@ impl<S: Real> Lift<S> for Jet<S> {
     }
 }
 
-impl<S: Real> Add for Jet<S> {
-    type Output = Self;
-    #[inline]
-    fn add(self, o: Self) -> Self {
-        Self::new(self.value + o.value, self.rate + o.rate, self.second + o.second)
-    }
-}
-impl<S: Real> Sub for Jet<S> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, o: Self) -> Self {
-        Self::new(self.value - o.value, self.rate - o.rate, self.second - o.second)
-    }
-}
-impl<S: Real> Mul for Jet<S> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, o: Self) -> Self {
-        let cross = self.rate * o.rate;
+super::operators::operators! {#[inline] {S: Real} Jet<S>: |a, b|
+    + Self::new(a.value + b.value, a.rate + b.rate, a.second + b.second),
+    - Self::new(a.value - b.value, a.rate - b.rate, a.second - b.second),
+    * {
+        let cross = a.rate * b.rate;
         Self::new(
-            self.value * o.value,
-            self.rate * o.value + self.value * o.rate,
-            self.second * o.value + cross + cross + self.value * o.second,
+            a.value * b.value,
+            a.rate * b.value + a.value * b.rate,
+            a.second * b.value + cross + cross + a.value * b.second,
         )
-    }
+    },
+    / a * b.recip(), // one chain rule instead of two
+    negative Self::new(-a.value, -a.rate, -a.second),
 }
-impl<S: Real> Div for Jet<S> {
-    type Output = Self;
-    #[allow(clippy::suspicious_arithmetic_impl)] // x/y as x · (1/y): one chain rule instead of two
-    #[inline]
-    fn div(self, o: Self) -> Self {
-        self * o.recip()
-    }
-}
-impl<S: Real> Neg for Jet<S> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Self::new(-self.value, -self.rate, -self.second)
-    }
-}
-super::assign::assign!({S: Real} Jet<S>);
 
 impl<S: Real> OverBase for Jet<S> {
     type Base = S::Base;

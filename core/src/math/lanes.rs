@@ -4,7 +4,6 @@ use super::array::each;
 use super::real::{ByValues, Lift, Real};
 use super::sine;
 use crate::math::Listed;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 use wide::f64x4;
 
 /// [`Lanes::WIDTH`] independent values of one quantity, one for each state or design.
@@ -136,43 +135,14 @@ impl Lanes {
     }
 }
 
-impl Add for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, o: Self) -> Self {
-        Self(self.0 + o.0)
-    }
+super::operators::operators! {#[inline(always)] Lanes: |a, b|
+    + Self(a.0 + b.0),
+    - Self(a.0 - b.0),
+    * Self(a.0 * b.0),
+    / Self(a.0 / b.0),
+    // changes only the sign; 0 - x would turn -0 into 0
+    negative Self(a.0 ^ f64x4::splat(-0.0)),
 }
-impl Sub for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, o: Self) -> Self {
-        Self(self.0 - o.0)
-    }
-}
-impl Mul for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, o: Self) -> Self {
-        Self(self.0 * o.0)
-    }
-}
-impl Div for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, o: Self) -> Self {
-        Self(self.0 / o.0)
-    }
-}
-impl Neg for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        // changes only the sign; 0 - x would turn -0 into 0
-        Self(self.0 ^ f64x4::splat(-0.0))
-    }
-}
-super::assign::assign!(Lanes);
 
 super::base::is_base!(Lanes);
 

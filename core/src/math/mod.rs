@@ -8,7 +8,6 @@
 //! Linear equations may also be [`Complex`]; they require only a [`Field`].
 
 mod array;
-pub(crate) mod assign;
 pub(crate) mod base;
 mod complex;
 mod dual;
@@ -17,6 +16,7 @@ mod interval;
 mod jet;
 mod lanes;
 mod list;
+pub(crate) mod operators;
 mod order;
 mod plane;
 mod random;

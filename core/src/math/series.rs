@@ -9,7 +9,6 @@
 use super::base::OverBase;
 use super::dual::Dual;
 use super::real::{Lift, Real};
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Largest exponent of a power that is computed by products; `f64` computes such powers in the same way.
 const MOST_PRODUCTS: f64 = 16.0;
@@ -135,57 +134,32 @@ impl<const N: usize, S: Real> Lift<S> for TaylorSeries<N, S> {
     }
 }
 
-impl<const N: usize, S: Real> Add for TaylorSeries<N, S> {
-    type Output = Self;
-    #[inline]
-    fn add(self, o: Self) -> Self {
-        self.with(o, |a, b| a + b)
-    }
-}
-impl<const N: usize, S: Real> Sub for TaylorSeries<N, S> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, o: Self) -> Self {
-        self.with(o, |a, b| a - b)
-    }
-}
-impl<const N: usize, S: Real> Mul for TaylorSeries<N, S> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, o: Self) -> Self {
+super::operators::operators! {#[inline] {const N: usize, S: Real} TaylorSeries<N, S>: |a, b|
+    + a.with(b, |a, b| a + b),
+    - a.with(b, |a, b| a - b),
+    * {
         let mut product = [S::zero(); N];
         for j in 0..N {
             for k in j..N {
-                product[k] += self.0[j] * o.0[k - j];
+                product[k] += a.0[j] * b.0[k - j];
             }
         }
         Self(product)
-    }
-}
-impl<const N: usize, S: Real> Div for TaylorSeries<N, S> {
-    type Output = Self;
-    #[inline]
-    fn div(self, o: Self) -> Self {
-        let (mut quotient, inverse) = (self.0, S::one() / o.0[0]);
-        quotient[0] = quotient[0] / o.0[0];
+    },
+    / {
+        let (mut quotient, inverse) = (a.0, S::one() / b.0[0]);
+        quotient[0] = quotient[0] / b.0[0];
         for k in 1..N {
             for j in 0..k {
                 let before = quotient[j];
-                quotient[k] -= before * o.0[k - j];
+                quotient[k] -= before * b.0[k - j];
             }
             quotient[k] = quotient[k] * inverse;
         }
         Self(quotient)
-    }
+    },
+    negative a.with(a, |a, _| -a),
 }
-impl<const N: usize, S: Real> Neg for TaylorSeries<N, S> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        self.with(self, |a, _| -a)
-    }
-}
-super::assign::assign!({const N: usize, S: Real} TaylorSeries<N, S>);
 
 impl<const N: usize, S: Real> OverBase for TaylorSeries<N, S> {
     type Base = S::Base;

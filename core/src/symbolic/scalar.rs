@@ -4,46 +4,21 @@ use super::arena::{Node, ONE, ZERO};
 use super::function::Function;
 use super::record::{constant, with, Symbolic};
 use crate::math::Real;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
 fn call(function: Function, x: Symbolic) -> Symbolic {
     with(|arena, own| arena.call(function, &[own(x)]))
 }
 
-impl Add for Symbolic {
-    type Output = Self;
-    fn add(self, o: Self) -> Self {
-        with(|arena, own| arena.sum(vec![(own(self), 1.0), (own(o), 1.0)]))
-    }
+crate::math::operators::operators! {Symbolic: |a, b|
+    + with(|arena, own| arena.sum(vec![(own(a), 1.0), (own(b), 1.0)])),
+    - with(|arena, own| arena.sum(vec![(own(a), 1.0), (own(b), -1.0)])),
+    * with(|arena, own| arena.multiply(own(a), own(b))),
+    / with(|arena, own| {
+        let inverse = arena.power(own(b), -1.0);
+        arena.multiply(own(a), inverse)
+    }),
+    negative with(|arena, own| arena.sum(vec![(own(a), -1.0)])),
 }
-impl Sub for Symbolic {
-    type Output = Self;
-    fn sub(self, o: Self) -> Self {
-        with(|arena, own| arena.sum(vec![(own(self), 1.0), (own(o), -1.0)]))
-    }
-}
-impl Mul for Symbolic {
-    type Output = Self;
-    fn mul(self, o: Self) -> Self {
-        with(|arena, own| arena.multiply(own(self), own(o)))
-    }
-}
-impl Div for Symbolic {
-    type Output = Self;
-    fn div(self, o: Self) -> Self {
-        with(|arena, own| {
-            let inverse = arena.power(own(o), -1.0);
-            arena.multiply(own(self), inverse)
-        })
-    }
-}
-impl Neg for Symbolic {
-    type Output = Self;
-    fn neg(self) -> Self {
-        with(|arena, own| arena.sum(vec![(own(self), -1.0)]))
-    }
-}
-crate::math::assign::assign!(Symbolic);
 
 crate::math::base::is_base!(Symbolic);
 
