@@ -151,6 +151,7 @@ impl Real for Lanes {
     fn constant(x: f64) -> Self {
         Self(f64x4::splat(x))
     }
+    super::real::functions!(|self, f| self.each(f); exp ln asin acos atan sinh cosh tanh floor);
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         sine::sin_cos_of_lanes(self)
@@ -168,40 +169,8 @@ impl Real for Lanes {
         Self(self.0.sqrt())
     }
     #[inline]
-    fn exp(self) -> Self {
-        self.each(f64::exp)
-    }
-    #[inline]
-    fn ln(self) -> Self {
-        self.each(f64::ln)
-    }
-    #[inline]
-    fn asin(self) -> Self {
-        self.each(f64::asin)
-    }
-    #[inline]
-    fn acos(self) -> Self {
-        self.each(f64::acos)
-    }
-    #[inline]
-    fn atan(self) -> Self {
-        self.each(f64::atan)
-    }
-    #[inline]
     fn atan2(self, x: Self) -> Self {
         self.zip(x, f64::atan2)
-    }
-    #[inline]
-    fn sinh(self) -> Self {
-        self.each(f64::sinh)
-    }
-    #[inline]
-    fn cosh(self) -> Self {
-        self.each(f64::cosh)
-    }
-    #[inline]
-    fn tanh(self) -> Self {
-        self.each(f64::tanh)
     }
     #[inline]
     fn powc(self, exponent: f64) -> Self {
@@ -214,10 +183,6 @@ impl Real for Lanes {
     #[inline(always)]
     fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
         Self(wide::CmpGt::cmp_gt(condition.0, f64x4::ZERO).blend(positive.0, otherwise.0))
-    }
-    #[inline]
-    fn floor(self) -> Self {
-        self.each(f64::floor)
     }
     #[inline(always)]
     fn abs(self) -> Self {
