@@ -116,14 +116,12 @@ impl Real for Interval {
         let quarter = Self::constant(FRAC_PI_2);
         ((self - quarter).cosine(), self.cosine())
     }
+    super::real::functions!(|self, f| self.rising(f); exp atan sinh tanh);
     fn sqrt(self) -> Self {
         if self.high < 0.0 {
             return Self::ALL;
         }
         Self { low: self.low.max(0.0), ..self }.rising(f64::sqrt)
-    }
-    fn exp(self) -> Self {
-        self.rising(f64::exp)
     }
     fn ln(self) -> Self {
         if self.high <= 0.0 {
@@ -133,9 +131,6 @@ impl Real for Interval {
     }
     fn asin(self) -> Self {
         self.and(Self::new(-1.0, 1.0)).rising(f64::asin)
-    }
-    fn atan(self) -> Self {
-        self.rising(f64::atan)
     }
     fn atan2(self, x: Self) -> Self {
         if x.low > 0.0 {
@@ -147,9 +142,6 @@ impl Real for Interval {
         let half = if self.low > 0.0 { FRAC_PI_2 } else { -FRAC_PI_2 };
         Self::rounded(half, half) - (x / self).atan()
     }
-    fn sinh(self) -> Self {
-        self.rising(f64::sinh)
-    }
     fn cosh(self) -> Self {
         let ends = [self.low.cosh(), self.high.cosh()];
         let found = Self::of(&ends);
@@ -158,9 +150,6 @@ impl Real for Interval {
         } else {
             found
         }
-    }
-    fn tanh(self) -> Self {
-        self.rising(f64::tanh)
     }
     fn powc(self, exponent: f64) -> Self {
         if exponent == 0.0 {
