@@ -93,6 +93,7 @@ impl<P: RungeKutta, Y: Ode> Stepper<Y, Y::Stop> for ExplicitStepper<P> {
         outcome
     }
 
+    #[inline]
     fn prepare_interpolant(&mut self, system: &mut Y) -> Result<(), Cause<Y::Stop>> {
         let mut rhs = RightHandSide { system, evaluations: self.counts.evaluations };
         let outcome = self.extend(&mut rhs);
@@ -100,18 +101,22 @@ impl<P: RungeKutta, Y: Ode> Stepper<Y, Y::Stop> for ExplicitStepper<P> {
         outcome
     }
 
+    #[inline]
     fn last_step(&self) -> Option<Step<'_>> {
         self.accepted.map(|accepted| self.view(accepted))
     }
 
+    #[inline]
     fn t(&self) -> f64 {
         self.accepted.map_or(self.t, |accepted| accepted.t)
     }
 
+    #[inline]
     fn t_end(&self) -> f64 {
         self.t_end
     }
 
+    #[inline]
     fn y(&self) -> &[f64] {
         let Work { y, y_new, .. } = &self.work;
         &(if self.accepted.is_some() { y_new } else { y }).as_flattened()[..self.n]
@@ -136,6 +141,7 @@ impl<P: RungeKutta, Y: Ode> Stepper<Y, Y::Stop> for ExplicitStepper<P> {
         Ok(())
     }
 
+    #[inline]
     fn statistics(&self) -> StepCounts {
         self.counts
     }
@@ -147,6 +153,7 @@ impl<P: RungeKutta, Y: Ode> Stepper<Y, Y::Stop> for ExplicitStepper<P> {
 }
 
 impl<P: RungeKutta> ExplicitStepper<P> {
+    #[inline]
     fn direction(&self) -> f64 {
         (self.t_end - self.t).signum()
     }
@@ -198,6 +205,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
     }
 
     /// Takes a step of constant length, whatever its error.
+    #[inline]
     fn constant_step<Y: Ode>(
         &mut self,
         rhs: &mut RightHandSide<'_, Y>,
@@ -283,6 +291,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
     }
 
     /// Prepares the step size for the first trial of a step.
+    #[inline]
     pub(super) fn begin_trials(&mut self, size: &mut StepSize) {
         if !std::mem::take(&mut self.rejected_before) {
             size.begin(least_step(self.t, self.direction()), self.control.max_step);
@@ -303,6 +312,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
     }
 
     /// Chooses the size of the next step after an accepted step.
+    #[inline]
     pub(super) fn resize(
         &self,
         size: &mut StepSize,
@@ -315,6 +325,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
     }
 
     /// The step to try instead of the step to `t_new`, so that no stage is near a time to avoid.
+    #[inline]
     fn placed<Y: Ode>(&mut self, rhs: &mut RightHandSide<'_, Y>, t_new: f64) -> Option<f64> {
         let avoid = rhs.system.times_to_avoid()?.next(t_new)?;
         let [h, left] = [(t_new - self.t).abs(), (self.t_end - self.t).abs()];
@@ -323,6 +334,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
     }
 
     /// Takes a trial step to `t_new` and returns its error norm.
+    #[inline]
     fn attempt<Y: Ode>(
         &mut self,
         rhs: &mut RightHandSide<'_, Y>,
@@ -337,6 +349,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
     }
 
     /// The error norm of the quadratures; 0 if they need no test of their own.
+    #[inline]
     fn quadrature_norm<Y: Ode>(&self, rhs: &mut RightHandSide<'_, Y>, h: f64) -> f64 {
         let Work { k, y, y_new, quadratures, .. } = &self.work;
         let end = &y_new.as_flattened()[..self.n];

@@ -43,6 +43,7 @@ pub(super) struct Ends<'a> {
 
 impl<'a> Ends<'a> {
     /// The data of `n` components: states and derivatives at the beginning and at the end.
+    #[inline]
     pub fn new(
         h: f64,
         y: [&'a [stages::Block]; 2],
@@ -109,11 +110,13 @@ impl HermiteBirkhoff {
     }
 
     /// Discards the step before, because the equations or the state have changed.
+    #[inline]
     pub fn forget(&mut self) {
         self.h_before = 0.0;
     }
 
     /// Whether the step before can be used for a step of length `h`.
+    #[inline]
     pub fn serves(&self, h: f64) -> bool {
         BEFORE.contains(&(self.h_before / h))
     }
@@ -139,6 +142,7 @@ impl HermiteBirkhoff {
     }
 
     /// Stores the data of this step for the next one.
+    #[inline]
     pub fn remember(&mut self, ends: Ends<'_>) {
         self.h_before = ends.h;
         self.rates.copy_from_slice(&ends.y_old[self.positions..]);
@@ -216,6 +220,7 @@ impl HermiteBirkhoff {
     }
 
     /// The completed interpolant.
+    #[inline]
     pub fn interpolant(&self) -> Interpolant<'_> {
         let (q, rates) = self.polynomials.split_at(self.positions.div_ceil(Lanes::WIDTH));
         Interpolant::polynomials(Polynomials { q, rates, positions: self.positions })

@@ -56,6 +56,7 @@ fn polynomial(coefficients: &[f64], theta: f64) -> f64 {
 impl<'a> Interpolant<'a> {
     /// An interpolant from `stages` in rows of length `len`, whose first entries are the components. The number of
     /// rows may be less than that of `table`.
+    #[inline]
     pub(super) fn new(stages: &'a [f64], len: usize, table: &'static [f64], degree: usize) -> Self {
         assert!(degree <= HIGHEST, "a method of a higher degree");
         assert!(table.len() <= MOST * degree, "a method of more stages");
@@ -63,16 +64,19 @@ impl<'a> Interpolant<'a> {
     }
 
     /// An interpolant with one polynomial of the highest degree for each component.
+    #[inline]
     pub(super) fn polynomials(polynomials: Polynomials<'a>) -> Self {
         Self { form: Form::Polynomials(polynomials), degree: HIGHEST }
     }
 
     /// Degree of the polynomial.
+    #[inline]
     pub fn degree(&self) -> usize {
         self.degree
     }
 
     /// Computes the state at θ. `ahead` = h θ is the time since the beginning.
+    #[inline]
     pub(super) fn evaluate(&self, y_old: &[f64], ahead: f64, theta: f64, out: &mut [f64]) {
         assert_eq!(out.len(), y_old.len(), "a state");
         match self.form {

@@ -106,18 +106,22 @@ pub trait LaneMethod: Sync {
 pub(super) struct OverLanes<P>(pub PhantomData<fn() -> P>);
 
 impl<P: RungeKutta> LaneMethod for OverLanes<P> {
+    #[inline]
     fn id(&self) -> TypeId {
         TypeId::of::<P>()
     }
 
+    #[inline]
     fn stages(&self) -> (usize, bool) {
         (P::STAGES, P::LAST_IN_ERROR)
     }
 
+    #[inline]
     fn advance(&self, trial: &mut LaneTrial<'_>, k: &mut [Block], y_new: &mut [Block]) -> bool {
         P::advance(trial, k, y_new).is_ok()
     }
 
+    #[inline]
     fn norms(&self, h: Block, k: &[Block], y: [&[Block]; 2], by: &LaneTolerances) -> Block {
         let [a, b] = P::error_squares(k, y, by);
         indexed(|lane| P::error_norm(h[lane], [a[lane], b[lane]], by.components()))
@@ -141,6 +145,7 @@ pub struct LaneTrial<'a> {
 #[doc(hidden)]
 pub struct NotOrdinary;
 
+#[inline]
 fn ordinary(holds: bool) -> Result<(), NotOrdinary> {
     match holds {
         true => Ok(()),
@@ -151,6 +156,7 @@ fn ordinary(holds: bool) -> Result<(), NotOrdinary> {
 impl TrialStages for LaneTrial<'_> {
     type Stop = NotOrdinary;
 
+    #[inline]
     fn width(&self) -> usize {
         self.y.len()
     }
@@ -179,11 +185,13 @@ impl TrialStages for LaneTrial<'_> {
         ordinary(combine(self.y, self.h / Lanes::constant(divisor), a, k, out))
     }
 
+    #[inline]
     fn rate_at_end(&mut self, y_new: &[Block], dy: &mut [Block]) -> Result<(), NotOrdinary> {
         ordinary(self.registers.rates(self.system, self.t_new, y_new, dy))?;
         self.finite(dy)
     }
 
+    #[inline]
     fn finite(&self, stage: &[Block]) -> Result<(), NotOrdinary> {
         ordinary(all_finite(stage.as_flattened()))
     }
@@ -197,6 +205,7 @@ struct Registers {
 }
 
 impl Registers {
+    #[inline]
     fn put(&mut self, y: &[Block]) {
         self.y.clear();
         y.iter().map(|y| Lanes::new(*y)).append_to(&mut self.y);

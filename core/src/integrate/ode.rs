@@ -12,6 +12,7 @@ pub trait Ode {
     fn len(&self) -> usize;
 
     /// Whether y has no components.
+    #[inline]
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -24,6 +25,7 @@ pub trait Ode {
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop>;
 
     /// The structure of y.
+    #[inline]
     fn structure(&self) -> Structure {
         Structure::first_order(self.len())
     }
@@ -31,22 +33,26 @@ pub trait Ode {
     /// The magnitude of the quadratures to which their errors are relative, after the evaluations of a trial step
     /// that ends in `y`. None if the quadratures are as smooth as the other components: their errors then need no
     /// test of their own.
+    #[inline]
     fn quadrature_scale(&self, y: &[f64]) -> Option<f64> {
         let _ = y;
         None
     }
 
     /// The manifold on which accepted states must lie.
+    #[inline]
     fn manifold(&mut self) -> Option<&mut dyn Manifold<Stop = Self::Stop>> {
         None
     }
 
     /// Times near which noise dominates f.
+    #[inline]
     fn times_to_avoid(&mut self) -> Option<&mut dyn TimesToAvoid> {
         None
     }
 
     /// Changes of f that depend on the step.
+    #[inline]
     fn trial_changes(&mut self) -> Option<&mut dyn TrialChanges> {
         None
     }
@@ -66,16 +72,19 @@ pub struct Structure {
 
 impl Structure {
     /// The structure of `n` first-order equations.
+    #[inline]
     pub fn first_order(n: usize) -> Self {
         Self { states: n, ..Self::default() }
     }
 
     /// Number of components that enter the error norm: q, v and z.
+    #[inline]
     pub fn controlled(&self) -> usize {
         2 * self.positions + self.states
     }
 
     /// Number of all components.
+    #[inline]
     pub fn total(&self) -> usize {
         self.controlled() + self.quadratures
     }
@@ -103,6 +112,7 @@ pub trait Manifold {
     /// Replaces a derivative at the last evaluated state by its tangential component, which
     /// [`project`](Self::project) does not remove. Linear in `dy`. Returns false if the whole derivative counts as
     /// error. A rejected step is tested again with the tangential error alone.
+    #[inline]
     fn project_error(&mut self, dy: &mut [f64]) -> bool {
         let _ = dy;
         false

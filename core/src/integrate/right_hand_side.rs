@@ -27,6 +27,7 @@ impl<Y: Ode> RightHandSide<'_, Y> {
     }
 
     /// dy = f(t, y), both in blocks. Checks that dy is finite.
+    #[inline]
     pub fn at(&mut self, t: f64, y: &[Block], dy: &mut [Block]) -> Result<(), Cause<Y::Stop>> {
         self.unchecked(t, y, dy)?;
         self.finite(t, dy)
@@ -65,6 +66,7 @@ impl<Y: Ode> RightHandSide<'_, Y> {
 
     /// Announces a trial step of length `h` from t. If this changes f, evaluates dy at the beginning again and
     /// returns true.
+    #[inline]
     pub fn before_trial(
         &mut self,
         t: f64,

@@ -10,6 +10,7 @@ use super::step_acceptance::last_row;
 use std::marker::PhantomData;
 
 impl<P: RungeKutta> SideBySide for ExplicitStepper<P> {
+    #[inline]
     fn method(&self) -> &'static dyn LaneMethod {
         &OverLanes::<P>(PhantomData)
     }
@@ -89,11 +90,13 @@ impl<P: RungeKutta> SideBySide for ExplicitStepper<P> {
 }
 
 /// Copies numbers into a lane.
+#[inline]
 fn put(from: &[Block], lane: usize, to: &mut [Block]) {
     to.iter_mut().zip(from.as_flattened()).for_each(|(to, x)| to[lane] = *x);
 }
 
 /// Copies numbers from a lane.
+#[inline]
 fn take(from: &[Block], lane: usize, to: &mut [Block]) {
     to.as_flattened_mut().iter_mut().zip(from).for_each(|(to, x)| *to = x[lane]);
 }

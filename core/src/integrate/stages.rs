@@ -9,11 +9,13 @@ use crate::math::{indexed, Lanes, Real};
 pub(super) type Block = [f64; Lanes::WIDTH];
 
 /// Memory for `rows` rows of `n` numbers.
+#[inline]
 pub(super) fn room(rows: usize, n: usize) -> Vec<Block> {
     vec![[0.0; Lanes::WIDTH]; rows * width(n)]
 }
 
 /// Number of blocks in a row of `n` numbers; at least one.
+#[inline]
 pub(super) fn width(n: usize) -> usize {
     n.div_ceil(Lanes::WIDTH).max(1)
 }
@@ -56,6 +58,7 @@ pub(super) fn sum_at<const S: usize>(i: usize, a: [f64; S], k: [&[Block]; S]) ->
 }
 
 /// out = (to - from) / h.
+#[inline]
 pub(super) fn chord(from: &[Block], to: &[Block], h: f64, out: &mut [Block]) {
     let h = Lanes::constant(h);
     for ((out, from), to) in out.iter_mut().zip(from).zip(to) {

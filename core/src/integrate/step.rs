@@ -32,6 +32,7 @@ pub struct Step<'a> {
 
 impl Step<'_> {
     /// Computes the state at a `time` within the step into `out`, which has the length of y.
+    #[inline]
     pub fn interpolate(&self, time: f64, out: &mut [f64]) {
         let (h, ahead) = (self.t - self.t_old, time - self.t_old);
         self.interpolant.evaluate(self.y_old, ahead, ahead / h, out);
@@ -39,6 +40,7 @@ impl Step<'_> {
 
     /// Computes the coefficients b of y(θ) = y_old + h Σₖ bₖ θᵏ, k = 1…[`Interpolant::degree`], θ = (t - t_old) / h,
     /// into `out`, row-major (len of y) × degree.
+    #[inline]
     pub fn coefficients(&self, out: &mut [f64]) {
         self.interpolant.coefficients(out);
     }

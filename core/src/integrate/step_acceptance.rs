@@ -79,6 +79,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
 
     /// Computes the integrals of the rates over the step, for the Hermite–Birkhoff interpolants of this step and the
     /// next.
+    #[inline]
     pub(super) fn measure(&mut self, accepted: Accepted) {
         let Work { width, k, y, y_new, hermite_birkhoff, .. } = &mut self.work;
         let Some(hermite_birkhoff) = hermite_birkhoff else { return };
@@ -148,6 +149,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
 
 /// The row of the derivative at the end of a step. It is the last stage, or the row after the jump if the last stage
 /// belongs to the state before a projection.
+#[inline]
 pub(super) fn last_row<P: RungeKutta>(projected: bool) -> usize {
     match projected && P::LAST_IN_ERROR {
         false => P::STAGES - 1,

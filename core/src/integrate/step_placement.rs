@@ -53,11 +53,13 @@ pub(super) struct StepPlacement {
 
 impl StepPlacement {
     /// Whether no obstacle was met and none is being passed.
+    #[inline]
     pub fn is_idle(&self) -> bool {
         *self == Self::default()
     }
 
     /// Prepares the placement before the first trial of a step.
+    #[inline]
     pub fn begin(&mut self) {
         let least = self.least.filter(|_| self.tried > 0);
         *self = Self { met: self.met, least, ..Self::default() };
@@ -102,6 +104,7 @@ impl StepPlacement {
 
     /// The step-size controller. After an obstacle was met it is the elementary one, since noise near an obstacle
     /// defeats a low safety factor.
+    #[inline]
     pub fn control(&self, otherwise: Control) -> Control {
         if self.met {
             Control::ELEMENTARY
@@ -111,6 +114,7 @@ impl StepPlacement {
     }
 
     /// Factor on error norms.
+    #[inline]
     pub fn strictness(&self) -> f64 {
         if self.met {
             STRICT
@@ -120,6 +124,7 @@ impl StepPlacement {
     }
 
     /// The size of the step after an accepted step whose error allows `next`.
+    #[inline]
     pub fn resume(&self, next: f64) -> f64 {
         next.max(self.resumed)
     }

@@ -46,6 +46,7 @@ pub(super) struct StepSize {
 }
 
 impl StepSize {
+    #[inline]
     pub fn new(size: f64, error_order: i32, control: Control) -> Self {
         Self { size, rejected: false, exponent: -1.0 / f64::from(error_order + 1), control }
     }
@@ -75,6 +76,7 @@ impl StepSize {
     }
 
     /// Updates the size after a rejected step of magnitude `h`, with an error norm of at least 1 or NaN.
+    #[inline]
     pub fn reject(&mut self, h: f64, norm: f64) {
         self.rejected = true;
         self.size = h * (self.control.safety * norm.powf(self.exponent)).max(MIN_FACTOR);
@@ -82,6 +84,7 @@ impl StepSize {
 
     /// Updates the size after the system refused the end of a step of magnitude `h`. The next step may grow at once,
     /// past the refused end.
+    #[inline]
     pub fn refuse(&mut self, h: f64) {
         self.rejected = false;
         self.size = h * REFUSED;
@@ -89,6 +92,7 @@ impl StepSize {
 }
 
 /// The smallest magnitude of a step from t in a direction (+1 or -1).
+#[inline]
 pub(super) fn least_step(t: f64, direction: f64) -> f64 {
     let outward = t == 0.0 || (t > 0.0) == (direction > 0.0);
     let bits = t.abs().to_bits();
@@ -98,6 +102,7 @@ pub(super) fn least_step(t: f64, direction: f64) -> f64 {
 
 /// First guess of the first step, from a first-order method (the algorithm of II.4 before its trial step). `d0` and
 /// `d1` are the scaled norms of y and f.
+#[inline]
 pub(super) fn probing_step(d0: f64, d1: f64, interval: f64) -> f64 {
     let guess = if d0 < 1e-5 || d1 < 1e-5 { 1e-6 } else { 0.01 * d0 / d1 };
     guess.min(interval)

@@ -51,6 +51,7 @@ pub trait Stepper<Y, E> {
     ///
     /// # Errors
     /// [`Cause::Argument`].
+    #[inline]
     fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<E>> {
         self.restart_until(t, y, self.t_end())
     }
@@ -65,6 +66,7 @@ pub trait Stepper<Y, E> {
     fn statistics(&self) -> StepCounts;
 
     /// The stepper for steps [in parallel with others](super::LaneSteps), if its method supports them.
+    #[inline]
     fn side_by_side(&mut self) -> Option<&mut dyn SideBySide> {
         None
     }

@@ -37,12 +37,14 @@ impl Tolerances {
     }
 
     /// √(Σ (xᵢ / scaleᵢ)² / n) at one state; 0 without controlled components.
+    #[inline]
     pub fn norm(&self, y: &[Block], x: impl Fn(usize) -> Lanes) -> f64 {
         let [sum] = self.squares([y, y], |i| [x(i)]);
         (sum / self.components()).sqrt()
     }
 
     /// The number of controlled components, at least 1.
+    #[inline]
     pub fn components(&self) -> f64 {
         self.controlled.max(1) as f64
     }
@@ -111,6 +113,7 @@ pub struct LaneTolerances {
 
 impl LaneTolerances {
     /// Sets the tolerances of a lane.
+    #[inline]
     pub(super) fn set(&mut self, lane: usize, of: &Tolerances) {
         self.rtol[lane] = of.rtol;
         self.atol.resize(of.controlled, [f64::INFINITY; Lanes::WIDTH]);
@@ -120,12 +123,14 @@ impl LaneTolerances {
     }
 
     /// Copies the tolerances of a lane to another lane.
+    #[inline]
     pub fn repeat(&mut self, from: usize, to: usize) {
         let blocks = self.atol.iter_mut().chain([&mut self.rtol]);
         blocks.for_each(|block| block[to] = block[from]);
     }
 
     /// The number of controlled components, at least 1.
+    #[inline]
     pub fn components(&self) -> f64 {
         self.atol.len().max(1) as f64
     }

@@ -132,6 +132,7 @@ pub(super) fn subtract_products<S: Real, const M: usize, const N: usize>(
 }
 
 /// y += Aᵀ x, with A given by rows.
+#[inline]
 pub(super) fn add_transposed<S: Real>(rows: &[[S; 3]], x: &[S], y: &mut [S; 3]) {
     for (a, x) in rows.iter().zip(x) {
         for c in 0..3 {
@@ -285,6 +286,7 @@ impl<S: Real, const N: usize> DiagonalFactor<S, N> {
 
 /// Number of values stored for a diagonal block of `n` rows: the n diagonal entries, later D⁻¹; the n sums with which
 /// the pivots are compared; and the entries left of the diagonal of S, later of L, row by row.
+#[inline]
 pub(super) fn numbers(n: usize) -> usize {
     2 * n + n * (n - 1) / 2
 }

@@ -45,6 +45,7 @@ impl<F: Field> BlockLu<F> {
     }
 
     /// The block in a slot of the plan, for writing.
+    #[inline]
     pub fn block_mut(&mut self, slot: usize) -> &mut Block<F> {
         &mut self.store[slot]
     }

@@ -50,6 +50,7 @@ pub struct CondensedGroup<S = f64> {
 
 impl<S: Real> CondensedGroup<S> {
     /// A group with the given W.
+    #[inline]
     pub fn new(mass: S, moment: [S; 2], inertia: S) -> Self {
         Self { mass, moment, inertia, particular: [[S::zero(); 3]; 2] }
     }

@@ -56,21 +56,25 @@ impl LuPlan {
     }
 
     /// Number of blocks along the diagonal.
+    #[inline]
     pub fn blocks(&self) -> usize {
         self.sizes.len()
     }
 
     /// Number of unknowns.
+    #[inline]
     pub fn unknowns(&self) -> usize {
         self.sizes.iter().sum()
     }
 
     /// Number of stored blocks: diagonal, lower and upper.
+    #[inline]
     pub fn stored(&self) -> usize {
         self.blocks() + 2 * self.below.len()
     }
 
     /// The unknowns of the k-th eliminated block.
+    #[inline]
     pub(super) fn rows(&self, k: usize) -> Range<usize> {
         let block = self.order[k];
         self.starts[block]..self.starts[block] + self.sizes[block]
@@ -80,6 +84,7 @@ impl LuPlan {
     ///
     /// # Panics
     /// If the block is not in the pattern.
+    #[inline]
     pub fn slot(&self, row: usize, column: usize) -> usize {
         self.place(self.position[row], self.position[column])
     }

@@ -36,11 +36,13 @@ pub trait Equations {
     ) -> Result<(), Self::Stop>;
 
     /// Norm of a residual; Euclidean by default.
+    #[inline]
     fn residual_norm(&self, residual: &[f64]) -> f64 {
         euclidean(residual)
     }
 
     /// Norm of a step from x; Euclidean by default.
+    #[inline]
     fn step_norm(&self, x: &[f64], step: &[f64]) -> f64 {
         let _ = x;
         euclidean(step)
@@ -147,16 +149,19 @@ enum Search {
 
 impl Newton {
     /// Allocates nothing.
+    #[inline]
     pub fn new() -> Self {
         Self::default()
     }
 
     /// The iterations of the last call, beginning with the start.
+    #[inline]
     pub fn history(&self) -> &[Record] {
         &self.history
     }
 
     /// F at the x of the last call.
+    #[inline]
     pub fn residual(&self) -> &[f64] {
         &self.residual
     }
@@ -254,6 +259,7 @@ impl Newton {
     }
 
     /// The residual norm after a fraction `part` of the step.
+    #[inline]
     fn try_part<E: Equations>(
         &mut self,
         equations: &mut E,

@@ -26,6 +26,7 @@ use std::collections::BinaryHeap;
 /// If an index is not in `0..n`, or `blocks` is not as described.
 ///
 /// [`Pattern`]: super::Pattern
+#[inline]
 pub fn groups_first(
     n_first: usize,
     n: usize,

@@ -59,6 +59,7 @@ impl Pattern {
     /// # Panics
     /// If a row block does not have 1 to 3 rows, a group does not exist or is touched twice, the entries do not fill
     /// a list without gaps, or an index exceeds 32 bits.
+    #[inline]
     pub fn new(groups: &[Group], blocks: &[RowBlock], condensed: &[usize]) -> Self {
         let (starts, n_unknowns) = group_starts(groups);
         let rows = row_starts(blocks);
@@ -123,36 +124,43 @@ impl Pattern {
     }
 
     /// The row blocks that consist of pin blocks only, in the order of elimination.
+    #[inline]
     pub fn pin_rows(&self) -> &[PinRows] {
         &self.pin_rows
     }
 
     /// The condensed row blocks, in the given order.
+    #[inline]
     pub fn condensed(&self) -> &[Condensation] {
         &self.condensed
     }
 
     /// The groups coupled in W that are not condensed.
+    #[inline]
     pub fn coupled(&self) -> &[u32] {
         &self.coupled
     }
 
     /// Number of unknowns in groups, plus up to two as padding if the last group has fewer than three.
+    #[inline]
     pub fn n_unknowns(&self) -> usize {
         self.n_unknowns
     }
 
     /// Number of rows of A.
+    #[inline]
     pub fn n_rows(&self) -> usize {
         self.n_rows
     }
 
     /// Number of blocks of L below the diagonal, including fill.
+    #[inline]
     pub fn fill(&self) -> usize {
         self.program.below.len()
     }
 
     /// Number of block products in one elimination.
+    #[inline]
     pub fn n_products(&self) -> usize {
         self.program.pairs.len() + self.program.updates.len()
     }
@@ -181,6 +189,7 @@ impl Remaining {
 }
 
 /// The first rows of entries of blocks that begin with ±I, and their signs.
+#[inline]
 fn units(blocks: &[RowBlock]) -> Vec<(u32, f64)> {
     let of = |block: &RowBlock| {
         let firsts = block.touches.iter().map(|(_, first)| index(first / 3));

@@ -22,6 +22,7 @@ pub struct PinBlock<S> {
 
 impl<S: Real> PinBlock<S> {
     /// All zero.
+    #[inline]
     pub(super) fn zero() -> Self {
         let zero = [S::zero(); 2];
         Self { along: zero, scaled: zero, translation: zero }

@@ -36,6 +36,7 @@ pub struct Rank {
 impl Rank {
     /// The smallest kept remainder divided by the largest dropped one. It is large if the rank is beyond doubt
     /// (infinite for full rank or exact dependence), and near 1 if the tolerance decided it.
+    #[inline]
     pub fn gap(&self) -> f64 {
         let least = self.kept.iter().copied().fold(f64::INFINITY, f64::min);
         least / self.dropped

@@ -35,6 +35,7 @@ pub struct PinRows {
 
 impl PinRows {
     /// From the index among all row blocks and the record of the row.
+    #[inline]
     pub(super) fn new(touches: &[Touch], block: u32, row: &Row) -> Self {
         let mut ends = [PinEnd::default(); 2];
         ends.iter_mut().zip(touches).for_each(|(end, touch)| *end = PinEnd::new(touch));
@@ -64,6 +65,7 @@ pub struct PinEnd {
 }
 
 impl PinEnd {
+    #[inline]
     pub(super) fn new(touch: &Touch) -> Self {
         let Touch { first: pin, entry, group, at, sign } = *touch;
         Self { pin, entry, group, at, sign: sign.into() }
@@ -181,6 +183,7 @@ pub(super) struct Ahead<'a> {
 
 impl Program {
     /// All records of blocks left of the diagonal.
+    #[inline]
     pub fn ahead(&self) -> Ahead<'_> {
         Ahead { left: &self.left, pairs: &self.pairs, updates: &self.updates }
     }

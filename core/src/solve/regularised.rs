@@ -28,6 +28,7 @@ const FARTHEST: f64 = 2.5;
 impl<S: Real> Saddle<S> {
     /// From now on, refuses pivots below 2e-3 of S_kk, and below 5e-3 in long chains, so that the caller can call
     /// [`factor_regularised`](Self::factor_regularised) instead.
+    #[inline]
     pub fn refuse_near(&mut self) {
         self.least = NEAR * (1.0 + self.masses.len() as f64 / LONG).min(FARTHEST);
     }

@@ -89,6 +89,7 @@ impl<S: Real> Saddle<S> {
     ///
     /// # Panics
     /// If the matrix has another pattern.
+    #[inline]
     pub fn factor(&mut self, pattern: &Pattern) -> Result<(), Breakdown> {
         self.reduce_all(pattern);
         self.check(pattern)?;
@@ -96,6 +97,7 @@ impl<S: Real> Saddle<S> {
     }
 
     /// Factorises the matrix after the condensed groups are reduced.
+    #[inline]
     pub(super) fn factor_reduced(&mut self, pattern: &Pattern) -> Result<(), Breakdown> {
         self.put_other_rows(pattern);
         self.put_all_pin_rows(pattern);
@@ -110,6 +112,7 @@ impl<S: Real> Saddle<S> {
     ///
     /// # Panics
     /// As [`factor`](Self::factor) and [`solve`](Self::solve).
+    #[inline]
     pub fn factor_and_solve(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Breakdown> {
         self.reduce_all(pattern);
         let (f, g) = self.begin(pattern, x);
@@ -119,6 +122,7 @@ impl<S: Real> Saddle<S> {
     }
 
     /// Computes e of the condensed groups from the entries, and the quantities that depend on e.
+    #[inline]
     fn reduce_all(&mut self, pattern: &Pattern) {
         assert_eq!(self.entries.len(), pattern.n_entries, "a matrix of this pattern");
         for (place, group) in pattern.condensed.iter().zip(&mut self.condensed) {

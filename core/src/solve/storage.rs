@@ -72,6 +72,7 @@ impl Storage {
 }
 
 /// Whether a row block consists of pin blocks only, at one or two groups.
+#[inline]
 pub(super) fn is_pin_only(touches: &[Touch]) -> bool {
     (1..=2).contains(&touches.len()) && touches.iter().all(|touch| touch.sign != 0.0)
 }

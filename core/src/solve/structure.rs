@@ -15,6 +15,7 @@ pub struct Group {
 
 impl Group {
     /// A group of three unknowns.
+    #[inline]
     pub fn body(coupled: bool) -> Self {
         Self { size: MOST, coupled }
     }
@@ -37,6 +38,7 @@ pub struct RowBlock {
 ///
 /// # Panics
 /// If the index needs more than 32 bits.
+#[inline]
 pub(super) fn index(i: usize) -> u32 {
     u32::try_from(i).expect("fewer than 2^32 entries")
 }
