@@ -167,7 +167,7 @@ fn refused_at(report: &mut ProblemList, node: &Node) {
         Data::Refused(reason) => report.say(reason.clone()),
         Data::Table(table) => refused_in(report, table),
         Data::List(items) => {
-            report.items(items, |report, item| refused_at(report, item));
+            report.items(items, refused_at);
         }
         _ => {}
     }

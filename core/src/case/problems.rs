@@ -146,7 +146,7 @@ fn range(report: &mut ProblemList, node: &Node) {
 fn objective(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) if !items.is_empty() => {
-            report.items(items, |report, item| one_objective(report, item));
+            report.items(items, one_objective);
         }
         _ => one_objective(report, node),
     }

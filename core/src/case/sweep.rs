@@ -70,7 +70,7 @@ pub(super) fn plain(report: &mut ProblemList, node: &Node) {
 /// A list of numbers, of this count if there is one.
 pub(super) fn numbers(report: &mut ProblemList, node: &Node, count: Option<usize>) {
     let Some(items) = as_list(report, node, "a list of numbers") else { return };
-    report.items(items, |report, item| plain(report, item));
+    report.items(items, plain);
     if items.is_empty() || count.is_some_and(|count| count != items.len()) {
         let needed = count.map_or("one number or more".to_string(), |n| format!("{n} numbers"));
         report.say(format!("a list of {}; must have {needed}", items.len()));

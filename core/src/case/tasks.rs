@@ -176,7 +176,7 @@ fn row(report: &mut ProblemList, node: &Node, width: Option<usize>, example: &st
     let Some(items) = as_list(report, node, &format!("a list of numbers, as in {example}")) else {
         return;
     };
-    report.items(items, |report, item| with_unit(report, item));
+    report.items(items, with_unit);
     if let Some(width) = width.filter(|width| *width != items.len()) {
         report
             .say(format!("a list of {}; must have {width} numbers, as in {example}", items.len()));

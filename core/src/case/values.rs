@@ -55,7 +55,7 @@ pub(super) fn number(report: &mut ProblemList, node: &Node) {
 pub(super) fn pair(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) if items.len() == 2 => {
-            report.items(items, |report, item| number(report, item));
+            report.items(items, number);
         }
         Data::List(items) => {
             report.say(format!("a list of {}; must be a list of two numbers [x, y]", items.len()));
@@ -70,7 +70,7 @@ pub(super) fn ranges(report: &mut ProblemList, node: &Node) {
     else {
         return;
     };
-    report.items(items, |report, item| pair(report, item));
+    report.items(items, pair);
 }
 
 /// Three numbers or formulas.
@@ -88,7 +88,7 @@ pub(super) fn triple(report: &mut ProblemList, node: &Node) {
 pub(super) fn numbers(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) if !items.is_empty() => {
-            report.items(items, |report, item| number(report, item));
+            report.items(items, number);
         }
         Data::List(_) => report.say("an empty list; must be a list of formulas".to_string()),
         _ => wrong(report, node, "a list of formulas [\"…\"]"),
@@ -157,7 +157,7 @@ pub(super) fn curves(report: &mut ProblemList, node: &Node) {
 pub(super) fn corners(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) if items.len() >= 3 => {
-            report.items(items, |report, item| pair(report, item));
+            report.items(items, pair);
         }
         Data::List(items) => {
             report.say(format!(

@@ -1,8 +1,9 @@
 //! Measures of a motion and their derivatives at given times.
 
-use super::gradient::{ReadyVariant, OF_BALANCE, OF_RUN};
+use super::gradient::{OF_BALANCE, OF_RUN};
 use super::starts::with_interpolant;
 use super::statistics::SlopeRows;
+use super::variant::ReadyVariant;
 use crate::analyses::measures::Measure;
 use crate::analyses::record::Record;
 use crate::analyses::sweep::{Outcome, Sweep, VariantRow};

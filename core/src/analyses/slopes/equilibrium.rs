@@ -1,9 +1,9 @@
 //! The numbers of an equilibrium with their derivatives.
 
 use super::at_rest::{AtRest, RestPoint};
-use super::gradient::ReadyVariant;
 use super::statistics::Found;
 use super::variables::parameters;
+use super::variant::ReadyVariant;
 use crate::analyses::assemble::{rate_slopes, state_until, Request, StartSlopes};
 use crate::analyses::equilibrium::Options;
 use crate::analyses::measures::Measure;

@@ -1,8 +1,9 @@
 //! The limits of a motion with their derivatives.
 
-use super::gradient::{NumberSlopes, ReadyVariant, COUNTS};
+use super::gradient::{NumberSlopes, COUNTS};
 use super::statistics::Found;
 use super::turning::Turning;
+use super::variant::ReadyVariant;
 use crate::analyses::assemble::implicit;
 use crate::analyses::measures::Measure;
 use crate::analyses::record::{Driven, Record};

@@ -1,7 +1,8 @@
 //! The numbers of modes with their derivatives.
 
-use super::gradient::{NumberSlopes, ReadyVariant};
+use super::gradient::NumberSlopes;
 use super::spectrum::{ModeEquations, Moved, Vector};
+use super::variant::ReadyVariant;
 use crate::analyses::linearization::Options;
 use crate::analyses::measures::Measure;
 use crate::analyses::record::{parts, Record, StartState};

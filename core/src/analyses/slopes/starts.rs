@@ -1,9 +1,9 @@
 //! The derivatives of the start of an analysis: an assembled state, or the end of the analysis before.
 
-use super::gradient::ReadyVariant;
 use super::reader::Reader;
 use super::run_ends::{ending, state_at, steps};
 use super::variables::parameters;
+use super::variant::ReadyVariant;
 use crate::analyses::assemble::{self, set_slopes, StartSlopes};
 use crate::analyses::dynamics::Options;
 use crate::analyses::record::Record;
