@@ -45,7 +45,7 @@ pub fn fields_of(entry: &Entry, set: &[(String, Value)]) -> Vec<(String, Value)>
 /// meets the constraints, and a remark gives the opening.
 ///
 /// # Errors
-/// [`Unfinished`].
+/// [`Unfinished`](super::record::Unfinished).
 pub fn run_after(
     analysis: &AnyAnalysis,
     subject: &Subject<'_>,

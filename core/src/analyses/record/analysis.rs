@@ -54,7 +54,7 @@ pub trait Analysis: Declared {
     /// Runs the analysis.
     ///
     /// # Errors
-    /// [`Unfinished`], with the record so far if there is one.
+    /// [`Unfinished`](super::Unfinished), with the record so far if there is one.
     fn run(&self, subject: &Subject<'_>, start: &StartState, observer: Observer<'_>) -> RunResult;
 }
 
