@@ -9,7 +9,7 @@ use crate::model::{written, PyModel};
 use crate::watch::{ToEnd, Watch};
 use kempe::analyses::dynamics::{Change, Prepared, Setting};
 use kempe::analyses::record::{
-    Driven, EventActions, Observer, Record, StartState, Subject, Unfinished,
+    Driven, EventActions, Observer, Record, RunResult, StartState, Subject,
 };
 use kempe::analyses::{run_after, AnyAnalysis, State};
 use kempe::case::{self, Case, Format};
@@ -204,10 +204,8 @@ struct Work {
     after: bool,
 }
 
-type Found = Result<Record, Box<Unfinished>>;
-
 impl Work {
-    fn run(&self, observer: Observer<'_>) -> Found {
+    fn run(&self, observer: Observer<'_>) -> RunResult {
         let subject = Subject { definition: &self.definition, prepared: &self.prepared };
         match self.after {
             true => run_after(&self.analysis, &subject, &self.start, observer),
@@ -221,7 +219,7 @@ impl Work {
         py: Python<'_>,
         progress: Option<&Py<PyAny>>,
         actions: Option<(Vec<String>, Py<PyAny>)>,
-    ) -> (Found, Option<PyErr>) {
+    ) -> (RunResult, Option<PyErr>) {
         let (mut watch, mut stopped) = (Watch::new(progress), None);
         let (events, call) = actions.unwrap_or_else(|| (Vec::new(), py.None()));
         let model = self.prepared.model();
@@ -243,7 +241,7 @@ impl Work {
         self,
         py: Python<'_>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<(Found, Option<PyErr>)> {
+    ) -> PyResult<(RunResult, Option<PyErr>)> {
         let work = move |stop: ToEnd<'_>| {
             let mut watch = Watch::until(progress.as_ref(), stop);
             let mut look = |at| watch.look(at);

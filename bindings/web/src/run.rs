@@ -8,7 +8,7 @@ use crate::loaded::Loaded;
 use crate::named;
 use kempe::analyses::dynamics::{Prepared, Run};
 use kempe::analyses::readings::Readable;
-use kempe::analyses::record::{Observer, Record, StartState, Subject, Unfinished, Variable};
+use kempe::analyses::record::{Observer, Record, RunResult, StartState, Subject, Variable};
 use kempe::analyses::{not_unique, AnyAnalysis};
 use kempe::equations::kinematics::Motions;
 use kempe::model::Value as Written;
@@ -76,10 +76,7 @@ impl Ran {
     }
 
     /// The run of a record, also of a record up to a failure.
-    fn recorded(
-        subject: &Subject<'_>,
-        outcome: Result<Record, Box<Unfinished>>,
-    ) -> Result<Self, Fault> {
+    fn recorded(subject: &Subject<'_>, outcome: RunResult) -> Result<Self, Fault> {
         let (record, error) = match outcome {
             Ok(record) => (record, None),
             Err(failed) => match failed.record {

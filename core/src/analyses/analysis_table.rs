@@ -10,7 +10,7 @@ use super::linearization;
 use super::options::{Declaration, Declared, Family, Member};
 use super::reachable;
 use super::record::{
-    parts, Analysis, ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished,
+    parts, Analysis, ErrorClass, Observer, Outcome, Record, RunResult, StartState, Subject,
 };
 use crate::math::Listed;
 use crate::model::{Model, Problem, Value};
@@ -133,7 +133,7 @@ macro_rules! analyses {
                 subject: &Subject<'_>,
                 start: &StartState,
                 observer: Observer<'_>,
-            ) -> Result<Record, Box<Unfinished>> {
+            ) -> RunResult {
                 let own = subject.meshed(start);
                 let subject = &own.as_ref().map_or(*subject, |own| Subject { prepared: own, ..*subject });
                 match self {

@@ -5,11 +5,11 @@
 //! no limit before the mechanism returns to its start, after one or several turns. A length is unlimited if it exceeds
 //! [`FARTHEST`] times the size of the mechanism.
 
-use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Reason};
+use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Reason, ALIKE};
 use super::options::{name, options};
 use super::record::{
-    Analysis, Fact, NamedNumber, NumberList, Observer, Outcome, Record, StartState, Subject,
-    Unfinished,
+    Analysis, Fact, NamedNumber, NumberList, Observer, Outcome, Record, RunResult, StartState,
+    Subject,
 };
 use super::{second_order, State};
 use crate::elements::QuantityKind;
@@ -24,8 +24,6 @@ use std::f64::consts::TAU;
 pub const MOST_TURNS: usize = 24;
 /// Length, in sizes of the mechanism, beyond which a length counts as unlimited.
 pub const FARTHEST: f64 = 100.0;
-/// Largest difference between two positions that count as equal, in rad or relative to the size of the mechanism.
-const SAME: f64 = 1e-5;
 
 options! {
     /// Limits of a driver or position quantity in both directions. A limit is a dead point, a stop or
@@ -56,12 +54,7 @@ impl Analysis for Options {
         }),
     ];
 
-    fn run(
-        &self,
-        subject: &Subject<'_>,
-        start: &StartState,
-        observer: Observer<'_>,
-    ) -> Result<Record, Box<Unfinished>> {
+    fn run(&self, subject: &Subject<'_>, start: &StartState, observer: Observer<'_>) -> RunResult {
         let over = match &self.over {
             Some(over) => over.clone(),
             None => subject.only_driver(start)?,
@@ -254,7 +247,7 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
                 }
             }
             let turned = self.kind == QuantityKind::Angle;
-            if turned && same(self.model, &self.start.q, &motion.point().q, SAME) {
+            if turned && same(self.model, &self.start.q, &motion.point().q, ALIKE) {
                 return Ok((DirectionEnd::Returned(turn), path));
             }
         }

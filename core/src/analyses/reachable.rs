@@ -9,7 +9,8 @@ use super::assemble::position;
 use super::kinematics::{driving, kinematics, DrivenQuantity, Reason};
 use super::options::{count, intervals, kind, name, options};
 use super::record::{
-    Analysis, Fact, NamedNumber, Observer, Outcome, Record, StartState, Subject, Unfinished,
+    Analysis, Fact, NamedNumber, Observer, Outcome, Record, RunResult, StartState, Subject,
+    Unfinished,
 };
 use super::State;
 use crate::elements::{BodyId, Group};
@@ -88,12 +89,7 @@ impl Analysis for Options {
     const NUMBERS: &'static [NamedNumber] =
         &[NamedNumber::finding("area", "m^2"), NamedNumber::finding("complete", "")];
 
-    fn run(
-        &self,
-        subject: &Subject<'_>,
-        start: &StartState,
-        observer: Observer<'_>,
-    ) -> Result<Record, Box<Unfinished>> {
+    fn run(&self, subject: &Subject<'_>, start: &StartState, observer: Observer<'_>) -> RunResult {
         let mut region = Region {
             options: self,
             subject,

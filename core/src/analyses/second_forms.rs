@@ -19,9 +19,7 @@ pub(super) fn forms(
 ) -> Vec<Vec<f64>> {
     let (m, f) = (model.layout.n_rows, freedoms.len());
     let gamma = |v: &[f64]| {
-        let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
-        let motions = Motions::at(&model.layout, q, v);
-        constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
+        let [_, _, gamma] = constraints::terms_at(model, &Motions::at(&model.layout, q, v), t);
         gamma
     };
     let rest = gamma(&vec![0.0; q.len()]);

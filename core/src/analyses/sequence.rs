@@ -3,7 +3,7 @@
 use super::analysis_table::{declarations, kind_of, AnyAnalysis};
 use super::assemble::{assemble_until, Request};
 use super::conditions::Condition;
-use super::record::{ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished};
+use super::record::{ErrorClass, Observer, Outcome, RunResult, StartState, Subject};
 use crate::math::Listed;
 use crate::model::{Entry, Model, Problem, Value};
 
@@ -45,13 +45,13 @@ pub fn fields_of(entry: &Entry, set: &[(String, Value)]) -> Vec<(String, Value)>
 /// meets the constraints, and a remark gives the opening.
 ///
 /// # Errors
-/// [`Unfinished`].
+/// [`Unfinished`](super::record::Unfinished).
 pub fn run_after(
     analysis: &AnyAnalysis,
     subject: &Subject<'_>,
     end: &StartState,
     mut observer: Observer<'_>,
-) -> Result<Record, Box<Unfinished>> {
+) -> RunResult {
     let failed = match analysis.run(subject, end, observer.again()) {
         Err(failed) if is_open(&failed.outcome) && !analysis.changes_parameters() => failed,
         other => return other,

@@ -310,8 +310,6 @@ pub(super) fn energies<S: Real>(model: &Model<S>, seen: &Seen<'_, S>) -> Energie
 }
 
 fn drift<S: Real>(model: &Model<S>, order: usize, seen: &Seen<'_, S>) -> S {
-    let m = model.layout.n_rows;
-    let [mut phi, mut rate, mut gamma] = [0, 1, 2].map(|_| vec![S::zero(); m]);
-    constraints::velocity_terms(model, seen.motions, seen.t, &mut phi, &mut rate, &mut gamma);
-    [phi, rate][order].iter().fold(S::zero(), |most, x| most.max(x.abs()))
+    let terms = constraints::terms_at(model, seen.motions, seen.t);
+    terms[order].iter().fold(S::zero(), |most, x| most.max(x.abs()))
 }

@@ -4,7 +4,7 @@ use super::bodies::Bodies;
 use super::names::{self, Namespace};
 use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
-use super::values::{number, pair, word, wrong};
+use super::values::{as_table, number, pair, word, wrong};
 use super::{columns, fields, problems, start, sweep, tables, tasks};
 use super::{Case, Format, FORMAT_VERSION};
 use crate::analyses;
@@ -51,9 +51,9 @@ pub(super) fn case(root: &Table, format: Format) -> (Case, (Vec<Problem>, usize)
     }
     let mut case = Case::default();
     let mut namespace = Namespace::default();
-    for (key, node) in &root.entries {
-        report.within(key, |report| section(report, (key, node), root, &mut case, &mut namespace));
-    }
+    report.entries(root, |report, key, node| {
+        section(report, (key, node), root, &mut case, &mut namespace)
+    });
     (case, report.finish())
 }
 
@@ -159,9 +159,7 @@ pub(super) fn refused(root: &Table, format: Format) -> (Vec<Problem>, usize) {
 }
 
 fn refused_in(report: &mut ProblemList, table: &Table) {
-    for (key, node) in &table.entries {
-        report.within(key, |report| refused_at(report, node));
-    }
+    report.entries(table, |report, _, node| refused_at(report, node));
 }
 
 fn refused_at(report: &mut ProblemList, node: &Node) {
@@ -169,25 +167,20 @@ fn refused_at(report: &mut ProblemList, node: &Node) {
         Data::Refused(reason) => report.say(reason.clone()),
         Data::Table(table) => refused_in(report, table),
         Data::List(items) => {
-            for (k, item) in items.iter().enumerate() {
-                report.within(&k.to_string(), |report| refused_at(report, item));
-            }
+            report.items(items, refused_at);
         }
         _ => {}
     }
 }
 
 fn parameters(report: &mut ProblemList, node: &Node) -> Vec<(String, Value)> {
-    let Data::Table(table) = &node.data else {
-        wrong(report, node, "a table of names and numbers");
+    let Some(table) = as_table(report, node, "a table of names and numbers") else {
         return Vec::new();
     };
-    for (name, value) in &table.entries {
-        report.within(name, |report| {
-            names::unreserved_key(report, name);
-            number(report, value);
-        });
-    }
+    report.entries(table, |report, name, value| {
+        names::unreserved_key(report, name);
+        number(report, value);
+    });
     table.values()
 }
 
@@ -196,18 +189,15 @@ fn measures(
     node: &Node,
     namespace: &mut Namespace,
 ) -> Vec<(String, Value)> {
-    let Data::Table(table) = &node.data else {
-        wrong(report, node, "a table of names and expressions");
+    let Some(table) = as_table(report, node, "a table of names and expressions") else {
         return Vec::new();
     };
-    for (name, value) in &table.entries {
-        report.within(name, |report| {
-            namespace.take(report, name, "measure");
-            if !matches!(value.data, Data::Text(_)) {
-                wrong(report, value, "an expression of quantities, such as \"C.force\"");
-            }
-        });
-    }
+    report.entries(table, |report, name, value| {
+        namespace.take(report, name, "measure");
+        if !matches!(value.data, Data::Text(_)) {
+            wrong(report, value, "an expression of quantities, such as \"C.force\"");
+        }
+    });
     table.values()
 }
 
@@ -229,15 +219,13 @@ fn entries(
         return Vec::new();
     };
     let mut found = Vec::with_capacity(section.entries.len());
-    for (name, node) in &section.entries {
-        report.within(name, |report| match &node.data {
-            Data::Table(table) => {
-                check(report, name, table);
-                found.push(Entry { name: name.clone(), fields: table.values() });
-            }
-            _ => wrong(report, node, "a table with fields"),
-        });
-    }
+    report.entries(section, |report, name, node| match &node.data {
+        Data::Table(table) => {
+            check(report, name, table);
+            found.push(Entry { name: name.to_string(), fields: table.values() });
+        }
+        _ => wrong(report, node, "a table with fields"),
+    });
     found
 }
 

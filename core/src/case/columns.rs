@@ -2,7 +2,7 @@
 
 use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
-use super::values::wrong;
+use super::values::{as_list, as_table, wrong};
 use crate::analyses::{is_motion, sweep};
 use crate::expression::suggest::did_you_mean;
 use crate::math::Listed;
@@ -32,41 +32,32 @@ pub(super) fn read(
     (name, keys, required): (&str, &[&str], &[&str]),
     mut own: impl FnMut(&mut ProblemList, &str, &Node),
 ) -> Vec<(String, Value)> {
-    let Data::Table(table) = &node.data else {
-        wrong(report, node, &format!("a table with {}", required.join(" and ")));
+    let Some(table) = as_table(report, node, &format!("a table with {}", required.join(" and ")))
+    else {
         return Vec::new();
     };
-    for (key, value) in &table.entries {
-        report.within(key, |report| match key.as_str() {
-            "measures" if keys.contains(&"measures") => {
-                texts(report, value, ("measure", "C.force.max"))
-            }
-            "analysis" => analysis(report, value, root),
-            key if keys.contains(&key) => own(report, key, value),
-            _ => {
-                let message = format!("unknown key '{}' of a {name}", super::shown(key));
-                report.unknown_key(message, key, keys);
-            }
-        });
-    }
-    for key in required.iter().filter(|key| table.get(key).is_none()) {
-        report.say(format!("{key} is missing"));
-    }
+    report.entries(table, |report, key, value| match key {
+        "measures" if keys.contains(&"measures") => {
+            texts(report, value, ("measure", "C.force.max"))
+        }
+        "analysis" => analysis(report, value, root),
+        key if keys.contains(&key) => own(report, key, value),
+        _ => report.unknown("key", key, &format!(" of a {name}"), keys),
+    });
+    report.missing(table, required);
     table.values()
 }
 
 /// A list of texts such as `example`, which has the noun `what`.
 pub(super) fn texts(report: &mut ProblemList, node: &Node, (what, example): (&str, &str)) {
-    let Data::List(items) = &node.data else {
-        return wrong(report, node, &format!("a list of {what}s [\"{example}\"]"));
+    let Some(items) = as_list(report, node, &format!("a list of {what}s [\"{example}\"]")) else {
+        return;
     };
-    for (k, item) in items.iter().enumerate() {
-        report.within(&k.to_string(), |report| {
-            if !matches!(item.data, Data::Text(_)) {
-                wrong(report, item, &format!("a {what} such as \"{example}\""));
-            }
-        });
-    }
+    report.items(items, |report, item| {
+        if !matches!(item.data, Data::Text(_)) {
+            wrong(report, item, &format!("a {what} such as \"{example}\""));
+        }
+    });
     if items.is_empty() {
         report.say(format!("an empty list; must have a {what} such as \"{example}\""));
     }

@@ -4,7 +4,7 @@ use super::events::events;
 use super::report::{among, ProblemList};
 use super::tree::{Data, Node, Table};
 use super::values::{
-    corners, count, curves, names, number, numbers, outline, pair, plain_numbers, points,
+    as_table, corners, count, curves, names, number, numbers, outline, pair, plain_numbers, points,
     quantities, ranges, section, terms, tolerance, triple, two_columns, two_names, two_texts,
     units, word, wrong, TERMS,
 };
@@ -27,8 +27,8 @@ pub(super) fn declared<'d>(
     let Some(node) = table.get("type") else {
         let mut keys = table.entries.iter().map(|(key, _)| key.as_str());
         if let Some(key) = keys.find(|key| closest(key, ["type"]).is_some()) {
-            let message = format!("unknown field '{}' of {noun}", super::shown(key));
-            report.within(key, |report| report.unknown_key(message, key, &["type"]));
+            let of = format!(" of {noun}");
+            report.within(key, |report| report.unknown("field", key, &of, &["type"]));
             return None;
         }
         if absent.is_none() {
@@ -74,17 +74,16 @@ pub(super) fn check(report: &mut ProblemList, table: &Table, declared: &Declarat
         known.push("type");
     }
     let mut meant = Vec::new(); // fields with misspelt keys; they are not reported as missing
-    for (key, node) in &table.entries {
-        report.within(key, |report| match declared.fields.iter().find(|f| f.name == key) {
+    report.entries(table, |report, key, node| {
+        match declared.fields.iter().find(|f| f.name == key) {
             Some(field) => shape(report, node, field.shape),
             None if typed && key == "type" => {}
             None => {
-                let message = format!("unknown field '{}' of {}", super::shown(key), declared.name);
-                report.unknown_key(message, key, &known);
+                report.unknown("field", key, &format!(" of {}", declared.name), &known);
                 meant.extend(closest(key, &known));
             }
-        });
-    }
+        }
+    });
     for field in declared.fields.iter().filter(|f| f.default.is_none()) {
         if table.get(field.name).is_none() && !meant.iter().any(|key| key == field.name) {
             report.within(field.name, |report| {
@@ -159,8 +158,8 @@ fn shapes(report: &mut ProblemList, node: &Node) {
     let known: Vec<&Declaration> = known.iter().list();
     for (k, item) in items.iter().enumerate() {
         report.within(&k.to_string(), |report| {
-            let Data::Table(table) = &item.data else {
-                return wrong(report, item, &format!("a shape such as {form}"));
+            let Some(table) = as_table(report, item, &format!("a shape such as {form}")) else {
+                return;
             };
             let noun = format!("shape {}", k + 1);
             if let Some(declared) = declared(report, table, &known, &noun, None) {

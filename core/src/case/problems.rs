@@ -4,7 +4,7 @@ use super::columns;
 use super::report::ProblemList;
 use super::sweep::{numbers, plain, whole, SCALES};
 use super::tree::{Data, Node, Table};
-use super::values::{word, wrong};
+use super::values::{as_list, as_table, word, wrong};
 use crate::model::Value;
 
 /// Words for `method` of an optimisation.
@@ -78,12 +78,10 @@ pub(super) fn named(
     example: &str,
     of: impl Fn(&mut ProblemList, &Node),
 ) {
-    let Data::Table(table) = &node.data else {
-        return wrong(report, node, &format!("a table such as {{ {example} }}"));
+    let Some(table) = as_table(report, node, &format!("a table such as {{ {example} }}")) else {
+        return;
     };
-    for (name, value) in &table.entries {
-        report.within(name, |report| of(report, value));
-    }
+    report.entries(table, |report, _, value| of(report, value));
     if table.entries.is_empty() {
         report.say(format!("an empty table; must have an entry such as {example}"));
     }
@@ -92,17 +90,11 @@ pub(super) fn named(
 /// Load cases: a list of tables of parameters, each of which may be empty.
 fn loads(report: &mut ProblemList, node: &Node) {
     let expected = "a list of settings [{ mass = 2 }, { mass = \"5 kg\" }]";
-    let Data::List(items) = &node.data else { return wrong(report, node, expected) };
-    for (k, item) in items.iter().enumerate() {
-        report.within(&k.to_string(), |report| {
-            let Data::Table(table) = &item.data else {
-                return wrong(report, item, "a table such as { mass = 2 }");
-            };
-            for (name, value) in &table.entries {
-                report.within(name, |report| with_unit(report, value));
-            }
-        });
-    }
+    let Some(items) = as_list(report, node, expected) else { return };
+    report.items(items, |report, item| {
+        let Some(table) = as_table(report, item, "a table such as { mass = 2 }") else { return };
+        report.entries(table, |report, _, value| with_unit(report, value));
+    });
     if items.is_empty() {
         report.say(format!("an empty list; must be {expected}"));
     }
@@ -123,7 +115,7 @@ pub(super) fn text(report: &mut ProblemList, node: &Node, what: &str) {
 /// `[least, largest]` or `[least, largest, "log"]`.
 fn bounds(report: &mut ProblemList, node: &Node) {
     let expected = "a list [least, largest] or [least, largest, \"log\"]";
-    let Data::List(items) = &node.data else { return wrong(report, node, expected) };
+    let Some(items) = as_list(report, node, expected) else { return };
     for (k, item) in items.iter().enumerate() {
         report.within(&k.to_string(), |report| match k {
             2 => word(report, item, &SCALES),
@@ -154,9 +146,7 @@ fn range(report: &mut ProblemList, node: &Node) {
 fn objective(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) if !items.is_empty() => {
-            for (k, item) in items.iter().enumerate() {
-                report.within(&k.to_string(), |report| one_objective(report, item));
-            }
+            report.items(items, one_objective);
         }
         _ => one_objective(report, node),
     }
@@ -171,27 +161,16 @@ fn one_objective(report: &mut ProblemList, node: &Node) {
             return wrong(report, node, &format!("a column such as \"C.force.max\", or {path}"));
         }
     };
-    for (key, value) in &table.entries {
-        report.within(key, |report| match key.as_str() {
-            "points" => points(report, value),
-            "of" => text(report, value, "a point such as \"coupler.P\""),
-            "angles" => numbers(report, value, None),
-            _ => {
-                let message = format!("unknown key '{}' of a path", super::shown(key));
-                report.unknown_key(message, key, &["points", "of", "angles"]);
-            }
-        });
-    }
-    for key in ["points", "of"].into_iter().filter(|key| table.get(key).is_none()) {
-        report.say(format!("{key} is missing"));
-    }
+    report.entries(table, |report, key, value| match key {
+        "points" => points(report, value),
+        "of" => text(report, value, "a point such as \"coupler.P\""),
+        "angles" => numbers(report, value, None),
+        _ => report.unknown("key", key, " of a path", &["points", "of", "angles"]),
+    });
+    report.missing(table, &["points", "of"]);
 }
 
 fn points(report: &mut ProblemList, node: &Node) {
-    let Data::List(items) = &node.data else {
-        return wrong(report, node, "a list of points [[x, y], [x, y]]");
-    };
-    for (k, item) in items.iter().enumerate() {
-        report.within(&k.to_string(), |report| numbers(report, item, Some(2)));
-    }
+    let Some(items) = as_list(report, node, "a list of points [[x, y], [x, y]]") else { return };
+    report.items(items, |report, item| numbers(report, item, Some(2)));
 }

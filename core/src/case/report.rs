@@ -1,5 +1,6 @@
 //! The problems found so far, and the path of the current value.
 
+use super::tree::{Node, Table};
 use super::Format;
 use crate::expression::suggest::did_you_mean;
 use crate::model::Problem;
@@ -32,6 +33,18 @@ impl ProblemList {
         self.path.pop();
         result
     }
+    /// Calls `look` with each item of a list as the current value.
+    pub(super) fn items(&mut self, items: &[Node], mut look: impl FnMut(&mut Self, &Node)) {
+        for (k, item) in items.iter().enumerate() {
+            self.within(&k.to_string(), |report| look(report, item));
+        }
+    }
+    /// Calls `look` with the key and the value of each entry of a table, as the current value.
+    pub(super) fn entries(&mut self, table: &Table, mut look: impl FnMut(&mut Self, &str, &Node)) {
+        for (key, node) in &table.entries {
+            self.within(key, |report| look(report, key, node));
+        }
+    }
     #[inline(never)] // one copy for all calls of `within`
     fn enter(&mut self, key: &str) {
         self.path.push(key.to_string());
@@ -63,6 +76,16 @@ impl ProblemList {
     pub(super) fn unknown_key(&mut self, message: impl Into<String>, key: &str, known: &[&str]) {
         let hint = did_you_mean(key, known).unwrap_or_else(|| among("it may have", known));
         self.add(self.here(message).at_key().hint(hint));
+    }
+    /// Reports the key of the current value as an unknown `what`, " of a section".
+    pub(super) fn unknown(&mut self, what: &str, key: &str, of: &str, known: &[&str]) {
+        self.unknown_key(format!("unknown {what} '{}'{of}", super::shown(key)), key, known);
+    }
+    /// Reports each of the keys that a table lacks.
+    pub(super) fn missing(&mut self, table: &Table, keys: &[&str]) {
+        for key in keys.iter().filter(|key| table.get(key).is_none()) {
+            self.say(format!("{key} is missing"));
+        }
     }
     /// The kept problems, and the number of further problems.
     pub(super) fn finish(self) -> (Vec<Problem>, usize) {

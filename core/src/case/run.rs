@@ -2,7 +2,9 @@
 
 use super::Case;
 use crate::analyses::assemble::assemble_until;
-use crate::analyses::record::{Observer, Outcome, Record, StartState, Subject, Unfinished};
+use crate::analyses::record::{
+    Observer, Outcome, Record, RunResult, StartState, Subject, Unfinished,
+};
 use crate::analyses::{fields_of, run_after, start_of, AnyAnalysis};
 use crate::model::{Model, Value};
 
@@ -32,7 +34,7 @@ impl Case {
         place: usize,
         subject: &Subject<'_>,
         mut observer: Observer<'_>,
-    ) -> Result<Record, Box<Unfinished>> {
+    ) -> RunResult {
         let name = &self.analyses[place].name;
         let path = ["analyses".to_string(), name.clone()];
         let analysis = AnyAnalysis::read(subject.model(), &self.fields(place), &path)?;

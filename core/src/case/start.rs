@@ -2,7 +2,7 @@
 
 use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
-use super::values::{number, wrong};
+use super::values::{as_table, number, wrong};
 use super::Start;
 use crate::elements::{Coordinate, Group};
 use crate::model::Value;
@@ -10,20 +10,12 @@ use crate::model::Value;
 /// Reads the current value as the section `[start]` of the case with this root.
 pub(super) fn read(report: &mut ProblemList, node: &Node, root: &Table) -> Start {
     let mut start = Start::default();
-    let Data::Table(table) = &node.data else {
-        wrong(report, node, "a table with set and guess");
-        return start;
-    };
-    for (key, node) in &table.entries {
-        report.within(key, |report| match key.as_str() {
-            "set" => start.set = coordinates(report, node, root),
-            "guess" => start.guess = coordinates(report, node, root),
-            _ => {
-                let message = format!("unknown key '{}' of start", super::shown(key));
-                report.unknown_key(message, key, &["set", "guess"]);
-            }
-        });
-    }
+    let Some(table) = as_table(report, node, "a table with set and guess") else { return start };
+    report.entries(table, |report, key, node| match key {
+        "set" => start.set = coordinates(report, node, root),
+        "guess" => start.guess = coordinates(report, node, root),
+        _ => report.unknown("key", key, " of start", &["set", "guess"]),
+    });
     start
 }
 
@@ -85,7 +77,7 @@ fn goes_on(owner: &str, key: &str) -> bool {
 fn coordinate(report: &mut ProblemList, root: &Table, (owner, name): (&str, &str)) {
     if Coordinate::named(name).is_none() && !is_element(root, owner) {
         let known = Coordinate::ALL.map(Coordinate::name);
-        report.unknown_key(format!("unknown coordinate '{}'", super::shown(name)), name, &known);
+        report.unknown("coordinate", name, "", &known);
     }
 }
 

@@ -3,7 +3,7 @@
 use super::columns;
 use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
-use super::values::{word, wrong};
+use super::values::{as_list, as_table, word, wrong};
 use crate::model::Value;
 
 /// The keys of the section.
@@ -25,12 +25,8 @@ pub(super) fn read(report: &mut ProblemList, node: &Node, root: &Table) -> Vec<(
 }
 
 fn variables(report: &mut ProblemList, node: &Node) {
-    let Data::Table(table) = &node.data else {
-        return wrong(report, node, "a table of names and values");
-    };
-    for (name, value) in &table.entries {
-        report.within(name, |report| values(report, value));
-    }
+    let Some(table) = as_table(report, node, "a table of names and values") else { return };
+    report.entries(table, |report, _, value| values(report, value));
 }
 
 /// A list of numbers, a range or a distribution.
@@ -48,19 +44,16 @@ fn values(report: &mut ProblemList, node: &Node) {
         Some("uniform") => &["uniform"],
         _ => &["from", "to", "n", "scale"],
     };
-    for (key, value) in &table.entries {
-        report.within(key, |report| match key.as_str() {
-            _ if !known.contains(&key.as_str()) => {
-                let message = format!("unknown key '{}' of values", super::shown(key));
-                let all = ["from", "to", "n", "scale", "normal", "uniform"];
-                report.unknown_key(message, key, &all);
-            }
-            "normal" | "uniform" => numbers(report, value, Some(2)),
-            "n" => whole(report, value, 2.0),
-            "scale" => word(report, value, &SCALES),
-            _ => plain(report, value),
-        });
-    }
+    report.entries(table, |report, key, value| match key {
+        _ if !known.contains(&key) => {
+            let all = ["from", "to", "n", "scale", "normal", "uniform"];
+            report.unknown("key", key, " of values", &all);
+        }
+        "normal" | "uniform" => numbers(report, value, Some(2)),
+        "n" => whole(report, value, 2.0),
+        "scale" => word(report, value, &SCALES),
+        _ => plain(report, value),
+    });
     let needed = known.iter().filter(|key| !["n", "scale"].contains(key));
     for key in needed.filter(|key| table.get(key).is_none()) {
         report.say(format!("{key} is missing"));
@@ -76,12 +69,8 @@ pub(super) fn plain(report: &mut ProblemList, node: &Node) {
 
 /// A list of numbers, of this count if there is one.
 pub(super) fn numbers(report: &mut ProblemList, node: &Node, count: Option<usize>) {
-    let Data::List(items) = &node.data else {
-        return wrong(report, node, "a list of numbers");
-    };
-    for (k, item) in items.iter().enumerate() {
-        report.within(&k.to_string(), |report| plain(report, item));
-    }
+    let Some(items) = as_list(report, node, "a list of numbers") else { return };
+    report.items(items, plain);
     if items.is_empty() || count.is_some_and(|count| count != items.len()) {
         let needed = count.map_or("one number or more".to_string(), |n| format!("{n} numbers"));
         report.say(format!("a list of {}; must have {needed}", items.len()));

@@ -4,7 +4,7 @@ use super::problems::{named, text, with_unit};
 use super::report::ProblemList;
 use super::sweep::{plain, whole};
 use super::tree::{Data, Node, Table};
-use super::values::{word, wrong};
+use super::values::{as_list, as_table, word, wrong};
 use super::{columns, shown};
 use crate::analyses::{is_motion, readings, sweep};
 use crate::math::Listed;
@@ -104,27 +104,20 @@ pub(super) fn exercise(
 }
 
 fn question(report: &mut ProblemList, node: &Node) {
-    let Data::Table(table) = &node.data else {
-        return wrong(report, node, "a table with text and measure or quantity");
+    let Some(table) = as_table(report, node, "a table with text and measure or quantity") else {
+        return;
     };
-    for (key, value) in &table.entries {
-        report.within(key, |report| match key.as_str() {
-            "text" => text(report, value, "a text, such as \"How large is the force in pin C?\""),
-            "measure" => text(report, value, "a column such as \"C.force.max\""),
-            "quantity" => text(report, value, "a quantity such as \"crank.angle\""),
-            "unit" => text(report, value, "a unit such as \"kN\""),
-            "at" => with_unit(report, value),
-            "tolerance" => tolerance(report, value),
-            "hints" => {
-                columns::texts(report, value, ("hint", "Draw the free body of the coupler."))
-            }
-            "points" => plain(report, value),
-            _ => {
-                let message = format!("unknown key '{}' of a question", shown(key));
-                report.unknown_key(message, key, &QUESTION);
-            }
-        });
-    }
+    report.entries(table, |report, key, value| match key {
+        "text" => text(report, value, "a text, such as \"How large is the force in pin C?\""),
+        "measure" => text(report, value, "a column such as \"C.force.max\""),
+        "quantity" => text(report, value, "a quantity such as \"crank.angle\""),
+        "unit" => text(report, value, "a unit such as \"kN\""),
+        "at" => with_unit(report, value),
+        "tolerance" => tolerance(report, value),
+        "hints" => columns::texts(report, value, ("hint", "Draw the free body of the coupler.")),
+        "points" => plain(report, value),
+        _ => report.unknown("key", key, " of a question", &QUESTION),
+    });
     if table.get("text").is_none() {
         report.say("text is missing");
     }
@@ -149,26 +142,20 @@ fn tolerance(report: &mut ProblemList, node: &Node) {
 
 /// The range of a random parameter.
 fn range(report: &mut ProblemList, node: &Node) {
-    let Data::Table(table) = &node.data else {
-        return wrong(report, node, "a table { from = 0.2, to = 0.3, step = 0.01 }");
+    let Some(table) = as_table(report, node, "a table { from = 0.2, to = 0.3, step = 0.01 }")
+    else {
+        return;
     };
-    for (key, value) in &table.entries {
-        report.within(key, |report| match key.as_str() {
-            "from" | "to" | "step" => plain(report, value),
-            "unit" => text(report, value, "a unit such as \"mm\""),
-            _ => {
-                let message = format!("unknown key '{}' of a range", shown(key));
-                report.unknown_key(message, key, &RANGE);
-            }
-        });
-    }
+    report.entries(table, |report, key, value| match key {
+        "from" | "to" | "step" => plain(report, value),
+        "unit" => text(report, value, "a unit such as \"mm\""),
+        _ => report.unknown("key", key, " of a range", &RANGE),
+    });
     let number = |key: &str| match table.get(key).map(|node| &node.data) {
         Some(Data::Number(x)) => Some(*x),
         _ => None,
     };
-    for key in ["from", "to"].into_iter().filter(|key| table.get(key).is_none()) {
-        report.say(format!("{key} is missing"));
-    }
+    report.missing(table, &["from", "to"]);
     if let (Some(from), Some(to)) = (number("from"), number("to")) {
         if to <= from {
             report.say(format!("to = {to} must be larger than from = {from}"));
@@ -181,21 +168,15 @@ fn range(report: &mut ProblemList, node: &Node) {
 
 /// Rows of numbers, or of texts with units, of one width.
 fn rows(report: &mut ProblemList, node: &Node, (width, example): (usize, &str)) {
-    let Data::List(items) = &node.data else {
-        return wrong(report, node, &format!("a list such as {example}"));
-    };
-    for (k, item) in items.iter().enumerate() {
-        report.within(&k.to_string(), |report| row(report, item, Some(width), example));
-    }
+    let Some(items) = as_list(report, node, &format!("a list such as {example}")) else { return };
+    report.items(items, |report, item| row(report, item, Some(width), example));
 }
 
 fn row(report: &mut ProblemList, node: &Node, width: Option<usize>, example: &str) {
-    let Data::List(items) = &node.data else {
-        return wrong(report, node, &format!("a list of numbers, as in {example}"));
+    let Some(items) = as_list(report, node, &format!("a list of numbers, as in {example}")) else {
+        return;
     };
-    for (k, item) in items.iter().enumerate() {
-        report.within(&k.to_string(), |report| with_unit(report, item));
-    }
+    report.items(items, with_unit);
     if let Some(width) = width.filter(|width| *width != items.len()) {
         report
             .say(format!("a list of {}; must have {width} numbers, as in {example}", items.len()));

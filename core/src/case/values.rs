@@ -2,7 +2,7 @@
 
 use super::names;
 use super::report::{among, ProblemList};
-use super::tree::{Data, Node};
+use super::tree::{Data, Node, Table};
 use crate::elements::{CURVE_FORMS, TOLERANCES, UNITS_OF_EQUATIONS};
 use crate::expression::suggest::{did_you_mean, frame_meant};
 use crate::math::Listed;
@@ -11,6 +11,36 @@ use crate::math::Listed;
 pub(super) fn wrong(report: &mut ProblemList, node: &Node, expected: &str) {
     if !matches!(node.data, Data::Refused(_)) {
         report.say(format!("{}; must be {expected}", node.noun()));
+    }
+}
+
+/// The items of a list. Reports a value that is no list.
+pub(super) fn as_list<'n>(
+    report: &mut ProblemList,
+    node: &'n Node,
+    expected: &str,
+) -> Option<&'n [Node]> {
+    match &node.data {
+        Data::List(items) => Some(items),
+        _ => {
+            wrong(report, node, expected);
+            None
+        }
+    }
+}
+
+/// A table. Reports a value that is no table.
+pub(super) fn as_table<'n>(
+    report: &mut ProblemList,
+    node: &'n Node,
+    expected: &str,
+) -> Option<&'n Table> {
+    match &node.data {
+        Data::Table(table) => Some(table),
+        _ => {
+            wrong(report, node, expected);
+            None
+        }
     }
 }
 
@@ -25,9 +55,7 @@ pub(super) fn number(report: &mut ProblemList, node: &Node) {
 pub(super) fn pair(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) if items.len() == 2 => {
-            for (k, item) in items.iter().enumerate() {
-                report.within(&k.to_string(), |report| number(report, item));
-            }
+            report.items(items, number);
         }
         Data::List(items) => {
             report.say(format!("a list of {}; must be a list of two numbers [x, y]", items.len()));
@@ -38,12 +66,11 @@ pub(super) fn pair(report: &mut ProblemList, node: &Node) {
 
 /// A list of pairs.
 pub(super) fn ranges(report: &mut ProblemList, node: &Node) {
-    let Data::List(items) = &node.data else {
-        return wrong(report, node, "a list of ranges [[first, last], [first, last]]");
+    let Some(items) = as_list(report, node, "a list of ranges [[first, last], [first, last]]")
+    else {
+        return;
     };
-    for (k, item) in items.iter().enumerate() {
-        report.within(&k.to_string(), |report| pair(report, item));
-    }
+    report.items(items, pair);
 }
 
 /// Three numbers or formulas.
@@ -61,9 +88,7 @@ pub(super) fn triple(report: &mut ProblemList, node: &Node) {
 pub(super) fn numbers(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) if !items.is_empty() => {
-            for (k, item) in items.iter().enumerate() {
-                report.within(&k.to_string(), |report| number(report, item));
-            }
+            report.items(items, number);
         }
         Data::List(_) => report.say("an empty list; must be a list of formulas".to_string()),
         _ => wrong(report, node, "a list of formulas [\"…\"]"),
@@ -79,9 +104,7 @@ pub(super) fn terms(report: &mut ProblemList, node: &Node, [toml, json]: [&str; 
     let form = report.example(toml, json);
     match &node.data {
         Data::Table(table) if !table.entries.is_empty() => {
-            for (name, node) in &table.entries {
-                report.within(name, |report| number(report, node));
-            }
+            report.entries(table, |report, _, node| number(report, node));
         }
         Data::Table(_) => report.say(format!("an empty table; must be a table such as {form}")),
         _ => wrong(report, node, &format!("a table such as {form}")),
@@ -92,9 +115,7 @@ pub(super) fn terms(report: &mut ProblemList, node: &Node, [toml, json]: [&str; 
 pub(super) fn units(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) => {
-            for (k, item) in items.iter().enumerate() {
-                report.within(&k.to_string(), |report| word(report, item, UNITS_OF_EQUATIONS));
-            }
+            report.items(items, |report, item| word(report, item, UNITS_OF_EQUATIONS));
         }
         _ => wrong(report, node, "a list of units [\"m\"]"),
     }
@@ -106,44 +127,37 @@ pub(super) fn points(report: &mut ProblemList, node: &Node) {
         let form = report.example("{ P = [x, y] }", "{ \"P\": [x, y] }");
         return wrong(report, node, &format!("a table of points {form}"));
     };
-    for (name, point) in &table.entries {
-        report.within(name, |report| {
-            names::key(report, name);
-            pair(report, point);
-        });
-    }
+    report.entries(table, |report, name, point| {
+        names::key(report, name);
+        pair(report, point);
+    });
 }
 
 /// Named curves; the model checks the values of each.
 pub(super) fn curves(report: &mut ProblemList, node: &Node) {
     let form = report.example("{ circle = [x, y, radius] }", "{ \"circle\": [x, y, radius] }");
-    let Data::Table(table) = &node.data else {
-        return wrong(report, node, &format!("a table of curves such as rim = {form}"));
+    let Some(table) = as_table(report, node, &format!("a table of curves such as rim = {form}"))
+    else {
+        return;
     };
     let known: Vec<&str> =
         CURVE_FORMS.iter().flat_map(|form| form.keys.iter().chain(form.more)).copied().list();
-    for (name, curve) in &table.entries {
-        report.within(name, |report| {
-            names::key(report, name);
-            let Data::Table(fields) = &curve.data else {
-                return wrong(report, curve, &format!("a curve such as {form}"));
-            };
-            for (key, _) in fields.entries.iter().filter(|(key, _)| !known.contains(&key.as_str()))
-            {
-                let message = format!("unknown field '{}' of a curve", super::shown(key));
-                report.within(key, |report| report.unknown_key(message, key, &known));
-            }
-        });
-    }
+    report.entries(table, |report, name, curve| {
+        names::key(report, name);
+        let Some(fields) = as_table(report, curve, &format!("a curve such as {form}")) else {
+            return;
+        };
+        for (key, _) in fields.entries.iter().filter(|(key, _)| !known.contains(&key.as_str())) {
+            report.within(key, |report| report.unknown("field", key, " of a curve", &known));
+        }
+    });
 }
 
 /// Points without names, at least three.
 pub(super) fn corners(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) if items.len() >= 3 => {
-            for (k, item) in items.iter().enumerate() {
-                report.within(&k.to_string(), |report| pair(report, item));
-            }
+            report.items(items, pair);
         }
         Data::List(items) => {
             report.say(format!(
@@ -165,17 +179,12 @@ pub(super) fn outline(report: &mut ProblemList, node: &Node) {
         let path = report.example("{ path = \"M 0 0 L …\" }", "{ \"path\": \"M 0 0 L …\" }");
         return wrong(report, node, &format!("points [[x, y], …], {circle} or {path}"));
     };
-    for (key, value) in &table.entries {
-        report.within(key, |report| match (key.as_str(), &value.data) {
-            ("circle", _) => triple(report, value),
-            ("path", Data::Text(_)) => {}
-            ("path", _) => wrong(report, value, "the path data of SVG as a text"),
-            _ => {
-                let message = format!("unknown field '{}' of an outline", super::shown(key));
-                report.unknown_key(message, key, &["circle", "path"]);
-            }
-        });
-    }
+    report.entries(table, |report, key, value| match (key, &value.data) {
+        ("circle", _) => triple(report, value),
+        ("path", Data::Text(_)) => {}
+        ("path", _) => wrong(report, value, "the path data of SVG as a text"),
+        _ => report.unknown("field", key, " of an outline", &["circle", "path"]),
+    });
     if table.entries.len() != 1 {
         report.say(format!("a table of {}; must have either circle or path", table.entries.len()));
     }
@@ -183,18 +192,14 @@ pub(super) fn outline(report: &mut ProblemList, node: &Node) {
 
 /// Two different names.
 pub(super) fn two_names(report: &mut ProblemList, node: &Node) {
-    let Data::List(items) = &node.data else {
-        return wrong(report, node, "a list of two names [\"A\", \"B\"]");
-    };
+    let Some(items) = as_list(report, node, "a list of two names [\"A\", \"B\"]") else { return };
     if items.len() != 2 {
         return report.say(format!("a list of {}; must be a list of two names", items.len()));
     }
-    for (k, item) in items.iter().enumerate() {
-        report.within(&k.to_string(), |report| match &item.data {
-            Data::Text(name) => names::value(report, name),
-            _ => wrong(report, item, "a name"),
-        });
-    }
+    report.items(items, |report, item| match &item.data {
+        Data::Text(name) => names::value(report, name),
+        _ => wrong(report, item, "a name"),
+    });
     if let (Data::Text(a), Data::Text(b)) = (&items[0].data, &items[1].data) {
         if a == b {
             report.say(format!("both are '{}'; must be two different names", super::shown(a)));
@@ -217,19 +222,12 @@ pub(super) fn two_texts(report: &mut ProblemList, node: &Node) {
 pub(super) fn section(report: &mut ProblemList, node: &Node) {
     let known = ["rectangle", "circle", "tube"];
     let form = report.example("{ rectangle = [0.01, 0.02] }", "{ \"rectangle\": [0.01, 0.02] }");
-    let Data::Table(table) = &node.data else {
-        return wrong(report, node, &format!("a section such as {form}"));
-    };
-    for (key, value) in &table.entries {
-        report.within(key, |report| match key.as_str() {
-            "rectangle" | "tube" => pair(report, value),
-            "circle" => number(report, value),
-            _ => {
-                let message = format!("unknown section '{}'", super::shown(key));
-                report.unknown_key(message, key, &known);
-            }
-        });
-    }
+    let Some(table) = as_table(report, node, &format!("a section such as {form}")) else { return };
+    report.entries(table, |report, key, value| match key {
+        "rectangle" | "tube" => pair(report, value),
+        "circle" => number(report, value),
+        _ => report.unknown("section", key, "", &known),
+    });
     if table.entries.len() != 1 {
         report.say(format!("must have exactly one of rectangle, circle and tube, such as {form}"));
     }
@@ -237,35 +235,28 @@ pub(super) fn section(report: &mut ProblemList, node: &Node) {
 
 /// Any number of names.
 pub(super) fn names(report: &mut ProblemList, node: &Node) {
-    let Data::List(items) = &node.data else {
-        return wrong(report, node, "a list of names [\"crank_drive\"]");
-    };
-    for (k, item) in items.iter().enumerate() {
-        report.within(&k.to_string(), |report| match &item.data {
-            Data::Text(name) => names::value(report, name),
-            _ => wrong(report, item, "a name"),
-        });
-    }
+    let Some(items) = as_list(report, node, "a list of names [\"crank_drive\"]") else { return };
+    report.items(items, |report, item| match &item.data {
+        Data::Text(name) => names::value(report, name),
+        _ => wrong(report, item, "a name"),
+    });
 }
 
 /// Any number of quantities.
 pub(super) fn quantities(report: &mut ProblemList, node: &Node) {
-    let Data::List(items) = &node.data else {
-        return wrong(report, node, "a list of quantities [\"crank.angle\"]");
+    let Some(items) = as_list(report, node, "a list of quantities [\"crank.angle\"]") else {
+        return;
     };
-    for (k, item) in items.iter().enumerate() {
-        report.within(&k.to_string(), |report| match &item.data {
-            Data::Text(_) => {}
-            _ => wrong(report, item, "a quantity as \"crank.angle\""),
-        });
-    }
+    report.items(items, |report, item| match &item.data {
+        Data::Text(_) => {}
+        _ => wrong(report, item, "a quantity as \"crank.angle\""),
+    });
 }
 
 /// Numbers, not formulas.
 pub(super) fn plain_numbers(report: &mut ProblemList, node: &Node) {
-    let Data::List(items) = &node.data else { return wrong(report, node, "a list of numbers") };
-    for (k, item) in items.iter().enumerate() {
-        report.within(&k.to_string(), |report| match &item.data {
+    let Some(items) = as_list(report, node, "a list of numbers") else { return };
+    report.items(items, |report, item| match &item.data {
             Data::Number(_) => {}
             Data::Text(_) => {
                 let hint = "units are given by x_unit and y_unit; a parameter multiplies the function, as in h*lift(x)";
@@ -273,7 +264,6 @@ pub(super) fn plain_numbers(report: &mut ProblemList, node: &Node) {
             }
             _ => wrong(report, item, "a number"),
         });
-    }
 }
 
 /// Two different names of columns, of any characters.
@@ -309,15 +299,10 @@ pub(super) fn tolerance(report: &mut ProblemList, node: &Node) {
         }
         return;
     };
-    for (key, value) in &table.entries {
-        report.within(key, |report| match TOLERANCES.contains(&key.as_str()) {
-            true => number(report, value),
-            false => {
-                let message = format!("unknown kind '{}' of tolerance", super::shown(key));
-                report.unknown_key(message, key, &TOLERANCES);
-            }
-        });
-    }
+    report.entries(table, |report, key, value| match TOLERANCES.contains(&key) {
+        true => number(report, value),
+        false => report.unknown("kind", key, " of tolerance", &TOLERANCES),
+    });
 }
 
 /// One of the `words`.

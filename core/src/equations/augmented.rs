@@ -184,12 +184,6 @@ impl<S: Real> Augmented<S> {
         self.omitted.extend_from_slice(rows);
     }
 
-    /// Whether redundant rows are damped, so that no row is omitted.
-    #[inline]
-    pub fn damps(&self) -> bool {
-        !self.saddle.damping.is_empty() && self.omitted.is_empty()
-    }
-
     /// The omitted rows.
     #[inline]
     pub fn omitted(&self) -> &[usize] {

@@ -51,6 +51,13 @@ pub fn jacobian<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, entries: 
 }
 
 /// Φ, Φ_q q̇ + Φ_t, and γ, each of shape (m).
+pub fn terms_at<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S) -> [Vec<S>; 3] {
+    let [mut phi, mut rate, mut gamma] = [(); 3].map(|()| vec![S::zero(); model.layout.n_rows]);
+    velocity_terms(model, motions, t, &mut phi, &mut rate, &mut gamma);
+    [phi, rate, gamma]
+}
+
+/// Writes Φ, Φ_q q̇ + Φ_t, and γ, each of shape (m).
 pub fn velocity_terms<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
@@ -353,10 +360,7 @@ pub(super) fn columns_by_body<S: Real>(
 /// ν = -Φ_t: the right side of Φ_q q̇ = ν (Haug 3.6.10), shape (m).
 #[inline]
 pub fn nu<S: Real>(model: &Model<S>, q: &[S], t: S) -> Vec<S> {
-    let m = model.layout.n_rows;
-    let [mut phi, mut rate, mut gamma] = [(); 3].map(|()| vec![S::zero(); m]);
-    let motions = Motions::at_rest(&model.layout, q);
-    velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
+    let [_, rate, _] = terms_at(model, &Motions::at_rest(&model.layout, q), t);
     rate.into_iter().map(|r| -r).list()
 }
 

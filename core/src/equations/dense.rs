@@ -29,8 +29,7 @@ pub struct Matrices {
 pub fn matrices(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Matrices {
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
     let motions = Motions::at(&model.layout, q, v);
-    let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
-    constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
+    let [phi, _, gamma] = constraints::terms_at(model, &motions, t);
     let mut q_forces = vec![0.0; n];
     let acting = Acting { z, lam: None, t };
     let powers = &mut Powers::zero();

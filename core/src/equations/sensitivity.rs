@@ -9,7 +9,7 @@ use super::forces::{self, Acting};
 use super::kinematics::Motions;
 use super::powers::Powers;
 use super::{constraints, mass, reactions, reactive, Compiled, Gains, Workspace};
-use crate::math::{Dual, Real};
+use crate::math::{Dual, Listed, Real};
 use crate::model::Model;
 use crate::solve::Breakdown;
 
@@ -18,6 +18,20 @@ pub type Slope = Dual<ABREAST>;
 
 /// Number of variables whose derivatives are computed at once. Value and derivatives fill a register.
 pub const ABREAST: usize = 3;
+
+/// Numbers without derivatives.
+pub fn constants(x: &[f64]) -> Vec<Slope> {
+    x.iter().map(|x| Slope::constant(*x)).list()
+}
+
+/// Numbers of which those from place `first` on, at most [`ABREAST`], are the variables.
+pub fn variables_from(first: usize, x: &[f64]) -> Vec<Slope> {
+    let mut numbers = constants(x);
+    for (place, number) in numbers[first..].iter_mut().take(ABREAST).enumerate() {
+        number.slope[place] = 1.0;
+    }
+    numbers
+}
 
 /// Largest number of corrections of a solution. Forces that depend on reactions need some.
 const MOST: usize = 60;
@@ -175,10 +189,7 @@ impl Sensitivity {
     /// Φ, Φ_q v + Φ_t and γ with derivatives.
     pub(super) fn terms(&self, t: Slope, q: &[Slope], v: &[Slope]) -> [Vec<Slope>; 3] {
         let motions = Motions::at(&self.model.layout, q, v);
-        let mut terms = [(); 3].map(|()| vec![Slope::constant(0.0); self.model.layout.n_rows]);
-        let [phi, rate, gamma] = &mut terms;
-        constraints::velocity_terms(&self.model, &motions, t, phi, rate, gamma);
-        terms
+        constraints::terms_at(&self.model, &motions, t)
     }
 
     /// M x + Φ_qᵀ y with derivatives at a state, shape (n_q).

@@ -159,13 +159,11 @@ pub const FUNCTIONS: &[Function] = &[
 ];
 
 /// One of three values, selected by the sign of `d`, lane by lane; NaN where `d` is NaN.
-#[inline]
 fn by_sign<S: Real>(d: S, positive: S, negative: S, zero: S) -> S {
     // this value is used only where d is 0 or NaN; floor(d) is then 0 or NaN, and has no derivative
     S::select(d, positive, S::select(-d, negative, zero + d.floor()))
 }
 
-#[inline]
 fn larger<S: Real>(a: S, b: S) -> S {
     let half = S::constant(0.5);
     // by_sign is not used, because the larger of two equal infinities is that infinity although a - b is NaN
@@ -174,7 +172,6 @@ fn larger<S: Real>(a: S, b: S) -> S {
 
 impl Unary {
     /// The value of the operation.
-    #[inline]
     pub fn apply<S: Real>(self, x: S) -> S {
         match self {
             Self::Negate => -x,
@@ -202,7 +199,6 @@ impl Unary {
 
 impl Binary {
     /// The value of the operation.
-    #[inline]
     pub fn apply<S: Real>(self, a: S, b: S) -> S {
         match self {
             Self::Add => a + b,
@@ -232,7 +228,6 @@ impl Binary {
 
 impl Relation {
     /// `a` where the difference of the two sides (left - right) satisfies the relation, otherwise `b`.
-    #[inline]
     pub fn choose<S: Real>(self, difference: S, a: S, b: S) -> S {
         match self {
             Self::Less => by_sign(difference, b, a, b),

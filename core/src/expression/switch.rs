@@ -37,7 +37,6 @@ impl Piecewise {
     }
 
     /// Its number of operands.
-    #[inline]
     pub fn operands(self) -> usize {
         match self {
             Self::Choose(_) => 3,
@@ -67,7 +66,6 @@ impl Piecewise {
     }
 
     /// σ.
-    #[inline]
     pub fn function<S: Real>(self, operands: &[S]) -> S {
         match self {
             Self::Choose(_) | Self::Unary(_) => operands[0],
@@ -88,7 +86,6 @@ impl Piecewise {
     }
 
     /// The value, with the piece determined by the operands.
-    #[inline]
     pub fn value<S: Real>(self, x: &[S]) -> S {
         match self {
             Self::Choose(relation) => relation.choose(x[0], x[1], x[2]),
@@ -102,7 +99,6 @@ impl Piecewise {
     }
 
     /// The value on a piece, which extends smoothly beyond its boundaries.
-    #[inline]
     pub fn value_on<S: Real>(self, piece: f64, x: &[S]) -> S {
         match self {
             Self::Choose(relation) => relation.choose(S::constant(piece), x[1], x[2]),

@@ -36,7 +36,6 @@ pub(super) enum Instruction {
 
 impl Instruction {
     /// Its number of operands; it has one result.
-    #[inline]
     pub fn operands(self) -> usize {
         match self {
             Self::Constant(_) | Self::Load(_) => 0,

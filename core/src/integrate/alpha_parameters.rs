@@ -24,14 +24,12 @@ pub struct AlphaParameters {
 }
 
 impl AlphaParameters {
-    #[inline]
     fn of_order_two(alpha_m: f64, alpha_f: f64) -> Self {
         let gamma = 0.5 + alpha_f - alpha_m;
         Self { alpha_m, alpha_f, beta: 0.25 * (gamma + 0.5) * (gamma + 0.5), gamma }
     }
 
     /// The parameters of Chung and Hulbert. `rho` in [0, 1) is the spectral radius at infinite frequency.
-    #[inline]
     pub fn chung_hulbert(rho: f64) -> Self {
         Self::of_order_two((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0))
     }
@@ -39,7 +37,6 @@ impl AlphaParameters {
     /// The parameters of Hilber, Hughes and Taylor. `alpha` is in [-1/3, 0); a smaller value gives more damping
     /// (*Improved numerical dissipation for time integration algorithms in structural dynamics*, Earthquake Eng.
     /// Struct. Dyn. 5 (1977) 283).
-    #[inline]
     pub fn hht(alpha: f64) -> Self {
         Self::of_order_two(0.0, -alpha)
     }
@@ -48,27 +45,23 @@ impl AlphaParameters {
     /// the equations above, z and z′ replace v and v̇ (Jansen, Whiting and Hulbert, *A generalized-α method for
     /// integrating the filtered Navier–Stokes equations with a stabilized finite element method*, Comput. Methods
     /// Appl. Mech. Eng. 190 (2000) 305).
-    #[inline]
     pub fn of_states(&self) -> Self {
         let x = self.alpha_f - self.alpha_m;
         Self::of_order_two(0.5 - x, 0.5 * (1.0 - x))
     }
 
     /// Δ = α_m - α_f.
-    #[inline]
     pub fn shift(&self) -> f64 {
         self.alpha_m - self.alpha_f
     }
 
     /// Coefficient C of the local error C h³ v̈ of q: C = 1/6 - β - Δ/2.
-    #[inline]
     pub fn position_error(&self) -> f64 {
         1.0 / 6.0 - self.beta - 0.5 * self.shift()
     }
 
     /// Coefficient C of the local error C h³ v⃛ of v: C = 1/6 - (Δ² + 2 Δ γ + γ)/2 - κ. The last of the equations
     /// above determines κ in a = v̇(t + Δ h) + κ h² v⃛.
-    #[inline]
     pub fn velocity_error(&self) -> f64 {
         let (shift, gamma) = (self.shift(), self.gamma);
         let kappa =
@@ -77,7 +70,6 @@ impl AlphaParameters {
     }
 
     /// dv̇₁/da₁.
-    #[inline]
     pub fn acceleration_share(&self) -> f64 {
         (1.0 - self.alpha_m) / (1.0 - self.alpha_f)
     }

@@ -28,7 +28,7 @@ use super::dae::{
 use super::error_weights::ErrorWeights;
 use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
-use super::implicit_state::ImplicitState;
+use super::implicit_state::{serves, ImplicitState};
 use super::right_hand_side::all_finite;
 
 /// Largest number of iterations with one matrix.
@@ -37,9 +37,6 @@ const MOST: usize = 10;
 const MATRICES: usize = 3;
 /// A matrix of an earlier step is replaced if one iteration does not reduce the error below this fraction.
 const SLOW: f64 = 0.2;
-/// Relative difference of two step sizes below which the steps share a matrix. Differences of times are subject to
-/// rounding.
-const SAME: f64 = 1e-6;
 /// Relative size of corrections that are rounding errors, compared with the largest coordinate.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Largest error that Newton's iteration may leave, as a fraction of the tolerance.
@@ -55,7 +52,6 @@ pub(super) struct Carried {
 }
 
 impl Carried {
-    #[inline]
     fn new(n: usize) -> Self {
         let row = || vec![0.0; n];
         Self { shift: row(), slope: row(), start: row(), end: row() }
@@ -63,7 +59,6 @@ impl Carried {
 
     /// Predicts the derivative at the end of the step and a at both ends by extrapolation. Returns the weighted mean
     /// of a that changes component i over the step, (1 - γ) a₀ + γ a₁.
-    #[inline]
     fn predict(&mut self, p: &AlphaParameters, h: f64, i: usize, rate: f64, end: &mut f64) -> f64 {
         self.start[i] = rate + h * self.shift[i];
         *end = rate + h * self.slope[i];
@@ -73,7 +68,6 @@ impl Carried {
     }
 
     /// Stores the slope and the shift for the next step, from the derivatives at both ends of this one.
-    #[inline]
     fn move_on(&mut self, h: f64, old: &[f64], new: &[f64]) {
         for i in 0..self.slope.len() {
             self.slope[i] = (new[i] - old[i]) / h;
@@ -129,7 +123,6 @@ impl AlphaStep {
     }
 
     /// Discards the data of earlier steps after a change of the state.
-    #[inline]
     pub fn forget(&mut self) {
         self.factored = None;
         self.carried = self.carried.each_ref().map(|carried| Carried::new(carried.slope.len()));
@@ -138,7 +131,6 @@ impl AlphaStep {
     }
 
     /// ∂z/∂ż at the end of a step.
-    #[inline]
     fn state_share(&self, h: f64) -> f64 {
         h * self.of_states.gamma / self.of_states.acceleration_share()
     }
@@ -159,7 +151,6 @@ impl AlphaStep {
     }
 
     /// Factorises the matrix at the beginning of a step, for [`filter`](Self::filter).
-    #[inline]
     pub fn factor_at_start<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
@@ -179,7 +170,7 @@ impl AlphaStep {
         scale: &mut ErrorWeights,
     ) -> bool {
         self.predict(h);
-        let reusable = self.factored.is_some_and(|made_for| (made_for - h).abs() <= SAME * h.abs());
+        let reusable = serves(self.factored, h);
         if reusable && self.newton(system, (t, h), scale, SLOW) {
             return true;
         }
@@ -285,7 +276,6 @@ impl AlphaStep {
     }
 
     /// Computes the residuals at `end`: those of the forces and states into the first parts of x, and Φ into `rows`.
-    #[inline]
     pub fn evaluate<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64) {
         let (forces, rest) = self.x.split_at_mut(self.dv.len());
         let states = &mut rest[..self.end.z.len()];
@@ -381,14 +371,12 @@ impl AlphaStep {
     }
 
     /// Whether all numbers at the end are finite.
-    #[inline]
     pub fn finite(&self) -> bool {
         let ImplicitState { q, v, a, lam, z, dz, powers } = &self.end;
         [q, v, a, lam, z, dz, powers].into_iter().all(|x| all_finite(x))
     }
 
     /// Makes the end the beginning of the next step.
-    #[inline]
     pub fn move_on(&mut self, h: f64) {
         let Self { start, end, carried: [of_v, of_z], .. } = self;
         of_v.move_on(h, &start.a, &end.a);

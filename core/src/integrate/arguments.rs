@@ -8,7 +8,6 @@ const MOST_STEPS: f64 = 1e15;
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Returns an error with the name, the value and the condition `must` if the condition does not hold.
-#[inline]
 pub(super) fn require<E>(
     holds: bool,
     name: &'static str,
@@ -22,7 +21,6 @@ pub(super) fn require<E>(
 }
 
 /// Checks the times and the initial state.
-#[inline]
 pub(super) fn check_problem<E>(t0: f64, t_end: f64, y: &[f64], len: usize) -> Result<(), Cause<E>> {
     finite("t0", t0)?;
     finite("t_end", t_end)?;
@@ -31,25 +29,21 @@ pub(super) fn check_problem<E>(t0: f64, t_end: f64, y: &[f64], len: usize) -> Re
     y.iter().try_for_each(|&value| finite("y0", value))
 }
 
-#[inline]
 pub(super) fn finite<E>(name: &'static str, value: f64) -> Result<(), Cause<E>> {
     require(value.is_finite(), name, value, "finite")
 }
 
 /// Infinity is positive; NaN is not.
-#[inline]
 pub(super) fn positive<E>(name: &'static str, value: f64) -> Result<(), Cause<E>> {
     require(value > 0.0, name, value, "> 0")
 }
 
-#[inline]
 pub(super) fn not_negative<E>(name: &'static str, value: f64) -> Result<(), Cause<E>> {
     finite(name, value)?;
     require(value >= 0.0, name, value, ">= 0")
 }
 
 /// Number of constant steps over an interval. A remainder that is a rounding error requires no further step.
-#[inline]
 pub(super) fn step_count<E>(step: f64, interval: f64) -> Result<usize, Cause<E>> {
     let ratio = interval / step;
     require(ratio <= MOST_STEPS, "step", step, "at least 1e-15 of |t_end - t0|")?;

@@ -115,13 +115,11 @@ pub fn crossings(
 }
 
 /// Largest difference of the times of two sign changes that count as simultaneous.
-#[inline]
 fn together(step: &Step<'_>) -> f64 {
     TOGETHER * f64::EPSILON * step.t.abs().max(step.t_old.abs())
 }
 
 /// Sorts by time, and simultaneous changes by function.
-#[inline]
 fn sort(step: &Step<'_>, crossings: &mut [Crossing]) {
     let sign = (step.t - step.t_old).signum();
     crossings.order_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)));
@@ -146,7 +144,6 @@ struct SignChange {
 
 impl SignChange {
     /// Whether a value lies on the new side of zero, so that the function has already changed sign.
-    #[inline]
     fn is_past(&self, value: f64) -> bool {
         if self.rising {
             value >= 0.0
@@ -155,7 +152,6 @@ impl SignChange {
         }
     }
 
-    #[inline]
     fn at(&self, t: f64) -> Crossing {
         Crossing { index: self.index, t, rising: self.rising }
     }
@@ -335,14 +331,12 @@ impl WatchedStep<'_, '_, '_> {
     }
 
     /// Whether a function has changed sign at a sample.
-    #[inline]
     fn has_changed(&self, change: &SignChange, (t, row): &Sample) -> bool {
         let sign = (self.step.t - self.step.t_old).signum();
         let (from, to) = (sign * change.old.0, sign * change.new.0);
         sign * t > from && (sign * t >= to || change.is_past(row[change.index]))
     }
 
-    #[inline]
     fn sample(&mut self, t: f64) -> Sample {
         (t, self.at(t).to_vec())
     }

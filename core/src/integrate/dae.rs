@@ -26,19 +26,16 @@ pub struct DaeLengths {
 
 impl DaeLengths {
     /// Number of components that enter the error norm: q, v and z.
-    #[inline]
     pub fn controlled(&self) -> usize {
         2 * self.coordinates + self.states
     }
 
     /// Length of y = (q, v, z, quadratures).
-    #[inline]
     pub fn total(&self) -> usize {
         self.controlled() + self.quadratures
     }
 
     /// Length of a correction of Newton's iteration, which has the parts (q or v, z, λ).
-    #[inline]
     pub fn unknowns(&self) -> usize {
         self.coordinates + self.states + self.multipliers
     }
@@ -156,7 +153,6 @@ pub trait Dae {
     /// residuals at the end of a trial step, where the quadratures are `works`.
     ///
     /// [`Ode::quadrature_scale`]: super::Ode::quadrature_scale
-    #[inline]
     fn quadrature_scale(&self, works: &[f64]) -> Option<f64> {
         let _ = works;
         None

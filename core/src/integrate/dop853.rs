@@ -30,7 +30,6 @@ pub struct Dop853 {
 
 impl Dop853 {
     /// The method with these tolerances and no bounds on steps.
-    #[inline]
     pub fn new(rtol: f64, atol: f64) -> Self {
         Self { control: StepControl::new(rtol, atol) }
     }
@@ -109,7 +108,6 @@ impl RungeKutta for Dop853 {
     const DOUBLE_QUADRATURE: &'static [f64] = &DOUBLE_QUADRATURE;
     const WITHOUT_EXTRA: &'static [f64] = &HERMITE;
 
-    #[inline]
     fn control(&self) -> Cow<'_, StepControl> {
         Cow::Borrowed(&self.control)
     }
@@ -143,14 +141,12 @@ impl RungeKutta for Dop853 {
         trial.finite(k16)
     }
 
-    #[inline]
     fn error_squares<N: Squares>(k: &[Block], states: [&[Block]; 2], norm: &N) -> [N::Sum; 2] {
         let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12] = rows(k, states[0].len());
         let k = [k1, k6, k7, k8, k9, k10, k11, k12];
         norm.squares(states, |i| [sum_at(i, E5, k), sum_at(i, E3, k)])
     }
 
-    #[inline]
     fn error_norm(h: f64, [fifth, third]: [f64; 2], components: f64) -> f64 {
         if fifth == 0.0 && third == 0.0 {
             return 0.0;

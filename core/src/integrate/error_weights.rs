@@ -16,7 +16,6 @@ pub(super) struct ErrorWeights {
 
 impl ErrorWeights {
     /// Weights for `controlled` components.
-    #[inline]
     pub fn new(control: &StepControl, controlled: usize) -> Self {
         let atol = match &control.atol {
             Atol::Scalar(atol) | Atol::Scaled(atol) => vec![*atol; controlled],
@@ -36,7 +35,6 @@ impl ErrorWeights {
     }
 
     /// The norm above which errors normal to the constraints count, although the constraints remove them.
-    #[inline]
     pub fn far(&self) -> f64 {
         FAR / self.rtol
     }
@@ -48,7 +46,6 @@ impl ErrorWeights {
     }
 
     /// √(mean (xᵢ / weightᵢ)²) over q, v and z. A quotient 0 / 0 counts as zero.
-    #[inline]
     pub fn norm(&self, dq: &[f64], dv: &[f64], dz: &[f64]) -> f64 {
         let n = self.weights.len().max(1);
         let parts = dq.iter().chain(dv).chain(dz).zip(&self.weights);

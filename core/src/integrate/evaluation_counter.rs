@@ -19,7 +19,6 @@ pub(super) struct CountedDae<'a, Y> {
 
 impl<Y: Dae> CountedDae<'_, Y> {
     /// Computes the derivative of a state.
-    #[inline]
     pub fn accelerate(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Cause<Y::Stop>> {
         self.counts.evaluations += 1;
         let (at, out) = state.rates();
@@ -27,7 +26,6 @@ impl<Y: Dae> CountedDae<'_, Y> {
     }
 
     /// Computes the derivative of a state and checks that it is finite.
-    #[inline]
     pub fn begin(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Cause<Y::Stop>> {
         self.accelerate(t, state)?;
         match [&state.a, &state.lam, &state.dz].into_iter().all(|x| all_finite(x)) {
@@ -37,7 +35,6 @@ impl<Y: Dae> CountedDae<'_, Y> {
     }
 
     /// Projects a state, as [`Dae::project`] does. Returns whether it changed.
-    #[inline]
     pub fn project(
         &mut self,
         t: f64,
@@ -68,7 +65,6 @@ impl<Y: Dae> CountedDae<'_, Y> {
     }
 
     /// Returns an error if the allowed number of steps was taken.
-    #[inline]
     pub fn check_count(&self, control: &StepControl) -> Result<(), Cause<Y::Stop>> {
         let steps = self.counts.steps;
         match control.max_steps.is_some_and(|most| steps >= most) {
@@ -79,7 +75,6 @@ impl<Y: Dae> CountedDae<'_, Y> {
 
     /// The reason why no step from a state was found: the error of the system if the matrix was singular, otherwise
     /// `other`.
-    #[inline]
     pub fn unsolved(
         &mut self,
         singular: bool,
@@ -126,7 +121,6 @@ impl<Y: Dae> CountedDae<'_, Y> {
         Ok(initial_step(h0, d1, d2, error_order).min(interval))
     }
 
-    #[inline]
     pub fn residual(
         &mut self,
         t: f64,
@@ -138,20 +132,17 @@ impl<Y: Dae> CountedDae<'_, Y> {
         self.system.residual(t, at, level, out);
     }
 
-    #[inline]
     pub fn linearize(&mut self, t: f64, at: Iterate<'_>) {
         self.counts.jacobians += 1;
         self.system.linearize(t, at);
     }
 
     /// Factorises the matrix. Returns false if it is singular.
-    #[inline]
     pub fn factor(&mut self, coefficients: NewtonCoefficients) -> bool {
         self.counts.factorisations += 1;
         self.system.factor(coefficients)
     }
 
-    #[inline]
     pub fn factor_complex(&mut self, coefficients: NewtonCoefficients<Complex>) -> bool {
         self.counts.factorisations += 1;
         self.system.factor_complex(coefficients)

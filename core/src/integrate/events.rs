@@ -67,7 +67,6 @@ pub fn locate(
 }
 
 /// Whether g changes sign over a step in the given direction.
-#[inline]
 pub(super) fn changes_sign(
     step: &Step<'_>,
     g: &mut dyn FnMut(f64, &[f64]) -> f64,
@@ -77,7 +76,6 @@ pub(super) fn changes_sign(
 }
 
 /// The values of g at the ends of a step if g changes sign in the given direction.
-#[inline]
 fn signs(
     step: &Step<'_>,
     g: &mut dyn FnMut(f64, &[f64]) -> f64,

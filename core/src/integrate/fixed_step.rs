@@ -45,7 +45,6 @@ impl Grid {
 }
 
 /// Returns an error if `max_steps` steps of at most `step` cannot cover the interval.
-#[inline]
 pub(super) fn affordable<E>(
     interval: f64,
     step: f64,

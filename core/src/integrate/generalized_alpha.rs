@@ -14,7 +14,7 @@ use super::implicit_stepper::{ImplicitScheme, ImplicitStepper};
 use super::implicit_steps::ImplicitSteps;
 use super::interpolant::HERMITE;
 use super::step_control::StepControl;
-use super::step_size::{least_step, Control, StepSize};
+use super::step_size::{least_step, Control, StepSize, KEEP};
 use super::stepper::{BoxedStepper, ImplicitMethod};
 use crate::math::Listed;
 
@@ -27,8 +27,6 @@ const SHORTEN: f64 = 0.25;
 /// Largest growth of a step. A step damps a stiff motion by the factor ρ, and a longer step must not amplify it more
 /// than that.
 const GROWTH: f64 = 1.5;
-/// The step and the matrix are kept if the step could grow by less than this factor.
-const KEEP: f64 = 1.2;
 
 /// The generalized-α method with its options.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,19 +39,16 @@ pub struct GeneralizedAlpha {
 
 impl GeneralizedAlpha {
     /// The method with step control and no bounds on steps.
-    #[inline]
     pub fn new(parameters: AlphaParameters, rtol: f64, atol: f64) -> Self {
         Self { parameters, control: StepControl::new(rtol, atol) }
     }
 
     /// The method with a constant step. Newton's iteration converges to `rtol` and `atol`.
-    #[inline]
     pub fn constant(parameters: AlphaParameters, step: f64, rtol: f64, atol: f64) -> Self {
         let control = StepControl { step: Some(step), ..StepControl::new(rtol, atol) };
         Self { parameters, control }
     }
 
-    #[inline]
     fn check<E>(&self) -> Result<(), Cause<E>> {
         let AlphaParameters { alpha_m, alpha_f, beta, gamma } = self.parameters;
         // the method has order 2; index 3 requires damping at infinite frequency (α_m < α_f)
@@ -73,7 +68,6 @@ struct AlphaProgress {
 
 impl AlphaProgress {
     /// The change of one quadrature in a step, by the trapezoidal rule.
-    #[inline]
     fn work(&self, k: usize, h: f64) -> f64 {
         0.5 * h * (self.step.start.powers[k] + self.step.end.powers[k])
     }
@@ -104,7 +98,6 @@ impl AlphaProgress {
 }
 
 impl ImplicitMethod for GeneralizedAlpha {
-    #[inline]
     fn start<Y: Dae>(
         &self,
         system: &Y,
@@ -126,7 +119,6 @@ impl ImplicitScheme for AlphaProgress {
     const ROWS: usize = 3;
     const DEGREE: usize = 4;
 
-    #[inline]
     fn table() -> &'static [f64] {
         &HERMITE
     }
@@ -147,12 +139,10 @@ impl ImplicitScheme for AlphaProgress {
         stepper.finish(dae, taken?)
     }
 
-    #[inline]
     fn size(&self) -> Option<f64> {
         self.size.as_ref().map(|size| size.size)
     }
 
-    #[inline]
     fn forget(&mut self) -> Option<f64> {
         self.step.forget();
         self.power_slopes.fill(0.0);
@@ -165,7 +155,6 @@ type AlphaStepper = ImplicitStepper<AlphaProgress>;
 impl AlphaStepper {
     /// Evaluates the derivative at the start, chooses the first step, and sets the initial deviations that order 2
     /// requires.
-    #[inline]
     fn begin<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<StepSize, Cause<Y::Stop>> {
         let Self { method, control, scale, steps, .. } = self;
         let AlphaStep { start, end, .. } = &mut method.step;
@@ -299,14 +288,12 @@ impl AlphaStepper {
     }
 
     /// Tries one step. Returns whether its equations were solved.
-    #[inline]
     fn attempt<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>, h: f64) -> bool {
         let step = &mut self.method.step;
         step.advance(dae, (self.steps.t, h), &mut self.scale) && step.finite()
     }
 
     /// The reason why no step of length `h` was found.
-    #[inline]
     fn gave_up<Y: Dae>(&self, dae: &mut CountedDae<'_, Y>, h: f64) -> Cause<Y::Stop> {
         let (t, step) = (self.steps.t, &self.method.step);
         dae.unsolved(step.singular, t, &step.start, Cause::Newton { t, h })

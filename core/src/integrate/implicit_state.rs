@@ -30,21 +30,18 @@ impl ImplicitState {
         }
     }
 
-    #[inline]
     pub fn iterate(&self) -> Iterate<'_> {
         let Self { q, v, a, lam, z, dz, .. } = self;
         Iterate { q, v, a, lam, z, dz }
     }
 
     /// The state, and the memory for its derivative.
-    #[inline]
     pub fn rates(&mut self) -> ([&[f64]; 3], DaeRates<'_>) {
         let Self { q, v, a, lam, z, dz, powers } = self;
         ([q, v, z], DaeRates { a, lam, dz, powers })
     }
 
     /// Copies q, v and z from y.
-    #[inline]
     pub fn set(&mut self, y: &[f64]) {
         let (n, s) = (self.q.len(), self.z.len());
         self.q.copy_from_slice(&y[..n]);
@@ -53,7 +50,6 @@ impl ImplicitState {
     }
 
     /// Copies q, v and z into y.
-    #[inline]
     pub fn write(&self, y: &mut [f64]) {
         let (n, s) = (self.q.len(), self.z.len());
         y[..n].copy_from_slice(&self.q);
@@ -72,7 +68,6 @@ impl ImplicitState {
     }
 
     /// Writes the derivative of y, (v, a, z′, powers).
-    #[inline]
     pub fn derivative(&self, out: &mut [f64]) {
         let (n, s) = (self.q.len(), self.z.len());
         out[..n].copy_from_slice(&self.v);
@@ -80,4 +75,13 @@ impl ImplicitState {
         out[2 * n..][..s].copy_from_slice(&self.dz);
         out[2 * n + s..].copy_from_slice(&self.powers);
     }
+}
+
+/// Relative difference of two step sizes below which the steps share their matrices. Differences of times are subject
+/// to rounding.
+const SAME: f64 = 1e-6;
+
+/// Whether the matrices of a step serve a step of size `h`.
+pub(super) fn serves(made_for: Option<f64>, h: f64) -> bool {
+    made_for.is_some_and(|made_for| (made_for - h).abs() <= SAME * h.abs())
 }

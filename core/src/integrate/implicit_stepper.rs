@@ -68,7 +68,6 @@ impl<M: ImplicitScheme> ImplicitStepper<M> {
 }
 
 impl<M: ImplicitScheme, Y: Dae> Stepper<Y, Y::Stop> for ImplicitStepper<M> {
-    #[inline]
     fn step(&mut self, system: &mut Y) -> Result<(), Cause<Y::Stop>> {
         self.steps.move_on();
         let mut dae = CountedDae { system, counts: self.counts };
@@ -77,32 +76,26 @@ impl<M: ImplicitScheme, Y: Dae> Stepper<Y, Y::Stop> for ImplicitStepper<M> {
         outcome
     }
 
-    #[inline]
     fn prepare_interpolant(&mut self, _: &mut Y) -> Result<(), Cause<Y::Stop>> {
         Ok(())
     }
 
-    #[inline]
     fn last_step(&self) -> Option<Step<'_>> {
         self.steps.view(M::table(), M::DEGREE)
     }
 
-    #[inline]
     fn t(&self) -> f64 {
         self.steps.t()
     }
 
-    #[inline]
     fn t_end(&self) -> f64 {
         self.steps.t_end
     }
 
-    #[inline]
     fn y(&self) -> &[f64] {
         self.steps.y()
     }
 
-    #[inline]
     fn next_size(&self) -> Option<f64> {
         self.method.size()
     }
@@ -118,7 +111,6 @@ impl<M: ImplicitScheme, Y: Dae> Stepper<Y, Y::Stop> for ImplicitStepper<M> {
         Ok(())
     }
 
-    #[inline]
     fn statistics(&self) -> StepCounts {
         self.counts
     }

@@ -33,19 +33,16 @@ impl ImplicitSteps {
         }
     }
 
-    #[inline]
     pub fn direction(&self) -> f64 {
         (self.t_end - self.t).signum()
     }
 
     /// Marks the step to `t` as accepted. All other data of the step are already set.
-    #[inline]
     pub fn accept(&mut self, t: f64) {
         self.accepted = Some(t);
     }
 
     /// Advances to the beginning of the next step.
-    #[inline]
     pub fn move_on(&mut self) {
         if let Some(t) = self.accepted.take() {
             self.t = t;
@@ -55,20 +52,17 @@ impl ImplicitSteps {
     }
 
     /// Continues from another state.
-    #[inline]
     pub fn restart(&mut self, t: f64, y: &[f64]) {
         (self.t, self.accepted) = (t, None);
         self.y.copy_from_slice(y);
     }
 
     /// Time reached.
-    #[inline]
     pub fn t(&self) -> f64 {
         self.accepted.unwrap_or(self.t)
     }
 
     /// State reached.
-    #[inline]
     pub fn y(&self) -> &[f64] {
         match self.accepted {
             Some(_) => &self.y_new,

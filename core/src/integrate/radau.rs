@@ -15,7 +15,7 @@ use super::radau_coefficients::{dot, A, DEGREE, ERROR, EXTENSION, REAL};
 use super::radau_step::{NewtonLimits, NewtonOutcome, RadauStep, ROWS};
 use super::right_hand_side::all_finite;
 use super::step_control::StepControl;
-use super::step_size::least_step;
+use super::step_size::{least_step, KEEP};
 use super::stepper::{BoxedStepper, ImplicitMethod};
 
 /// Order of the error estimate.
@@ -25,8 +25,6 @@ const SAFETY: f64 = 0.9;
 /// Bounds of the factor from one step to the next.
 const MIN_FACTOR: f64 = 0.2;
 const MAX_FACTOR: f64 = 8.0;
-/// The step and the factors are kept if the step could grow by less than this factor.
-const KEEP: f64 = 1.2;
 /// A tangent is kept while Newton's iteration converges at this rate or faster.
 const FAST: f64 = 1e-3;
 /// Factor on the step after a trial without convergence.
@@ -47,13 +45,11 @@ pub struct Radau {
 
 impl Radau {
     /// The method with these tolerances and no bounds on steps.
-    #[inline]
     pub fn new(rtol: f64, atol: f64) -> Self {
         Self { control: StepControl::new(rtol, atol) }
     }
 
     /// The method with a constant step. Newton's iteration converges to `rtol` and `atol`.
-    #[inline]
     pub fn constant(step: f64, rtol: f64, atol: f64) -> Self {
         Self { control: StepControl { step: Some(step), ..StepControl::new(rtol, atol) } }
     }
@@ -71,7 +67,6 @@ struct RadauProgress {
 }
 
 impl ImplicitMethod for Radau {
-    #[inline]
     fn start<Y: Dae>(
         &self,
         system: &Y,
@@ -89,7 +84,6 @@ impl ImplicitScheme for RadauProgress {
     const ROWS: usize = ROWS;
     const DEGREE: usize = DEGREE;
 
-    #[inline]
     fn table() -> &'static [f64] {
         &*EXTENSION
     }
@@ -110,12 +104,10 @@ impl ImplicitScheme for RadauProgress {
         stepper.finish(dae, t_new)
     }
 
-    #[inline]
     fn size(&self) -> Option<f64> {
         self.size
     }
 
-    #[inline]
     fn forget(&mut self) -> Option<f64> {
         (self.keep_tangent, self.before) = (false, None);
         self.step.forget();
@@ -127,7 +119,6 @@ type RadauStepper = ImplicitStepper<RadauProgress>;
 
 impl RadauStepper {
     /// Evaluates the derivative at the start and chooses the first step.
-    #[inline]
     fn begin<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<f64, Cause<Y::Stop>> {
         let Self { method, control, scale, steps, .. } = self;
         let RadauStep { start, stages, .. } = &mut method.step;
@@ -315,7 +306,6 @@ impl RadauStepper {
 }
 
 /// The factor on the step that an error norm allows.
-#[inline]
 fn factor(norm: f64, safety: f64) -> f64 {
     let factor = safety * norm.max(f64::MIN_POSITIVE).powf(-1.0 / f64::from(ERROR_ORDER + 1));
     factor.clamp(MIN_FACTOR, MAX_FACTOR)
@@ -323,7 +313,6 @@ fn factor(norm: f64, safety: f64) -> f64 {
 
 /// Error that Newton's iteration may leave, as a fraction of the tolerance. The fraction is larger for small
 /// tolerances.
-#[inline]
 fn newton_tolerance(rtol: f64) -> f64 {
     (10.0 * f64::EPSILON / rtol).max(rtol.sqrt().min(0.03))
 }

@@ -91,7 +91,6 @@ pub(super) fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 }
 
 /// Values at θ of the Lagrange polynomials for the nodes.
-#[inline]
 pub(super) fn lagrange<const N: usize>(nodes: [f64; N], theta: f64) -> [f64; N] {
     std::array::from_fn(|k| {
         let others = nodes.iter().enumerate().filter(|(j, _)| *j != k);

@@ -17,13 +17,10 @@ use super::dae::{ConstraintLevel, Dae, DaeLengths, DaeResidual, Iterate, NewtonC
 use super::error_weights::ErrorWeights;
 use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
-use super::implicit_state::ImplicitState;
+use super::implicit_state::{serves, ImplicitState};
 use super::radau_coefficients::{dot, lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
 use crate::math::{indexed, Complex, Field};
 
-/// Relative difference of two step sizes below which the steps share their matrices. Differences of times are subject
-/// to rounding.
-const SAME: f64 = 1e-6;
 /// Relative size of velocity corrections that are rounding errors, compared with the largest velocity.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Number of rows of the continuous extension: v at the beginning and at the stages, the derivatives at the stages,
@@ -109,7 +106,7 @@ impl RadauStep {
         scale: &mut ErrorWeights,
         enough: NewtonLimits,
     ) -> NewtonOutcome {
-        if !self.factored.is_some_and(|made_for| (made_for - h).abs() <= SAME * h.abs()) {
+        if !serves(self.factored, h) {
             self.factored = None;
             if !(system.factor(coefficients(h / REAL))
                 && system.factor_complex(coefficients(complex_step(h))))

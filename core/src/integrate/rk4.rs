@@ -21,7 +21,6 @@ pub struct Rk4 {
 
 impl Rk4 {
     /// The method with this step and no bound on the number of steps.
-    #[inline]
     pub fn new(step: f64) -> Self {
         Self { control: StepControl::constant(step) }
     }
@@ -53,7 +52,6 @@ impl RungeKutta for Rk4 {
     const GAP: Gap = Gap { middle: 0.75, half: 0.25 };
     const TABLE: &'static [f64] = &HERMITE;
 
-    #[inline]
     fn control(&self) -> Cow<'_, StepControl> {
         let step = Some(self.control.step.unwrap_or(f64::NAN)); // a missing step is an error
         Cow::Owned(StepControl { step, ..self.control.clone() })
@@ -73,12 +71,10 @@ impl RungeKutta for Rk4 {
     }
 
     /// Zero, since the step is constant.
-    #[inline]
     fn error_squares<N: Squares>(_: &[Block], states: [&[Block]; 2], norm: &N) -> [N::Sum; 2] {
         norm.squares(states, |_| [Lanes::zero(); 2])
     }
 
-    #[inline]
     fn error_norm(_: f64, _: [f64; 2], _: f64) -> f64 {
         0.0
     }

@@ -21,7 +21,6 @@ pub struct Rk45 {
 
 impl Rk45 {
     /// The method with these tolerances and no bounds on steps.
-    #[inline]
     pub fn new(rtol: f64, atol: f64) -> Self {
         Self { control: StepControl::new(rtol, atol) }
     }
@@ -68,7 +67,6 @@ impl RungeKutta for Rk45 {
     const GAP: Gap = Gap { middle: 0.55, half: 0.25 };
     const TABLE: &'static [f64] = &P;
 
-    #[inline]
     fn control(&self) -> Cow<'_, StepControl> {
         Cow::Borrowed(&self.control)
     }
@@ -88,7 +86,6 @@ impl RungeKutta for Rk45 {
         trial.rate_at_end(y_new, k7)
     }
 
-    #[inline]
     fn error_squares<N: Squares>(k: &[Block], states: [&[Block]; 2], norm: &N) -> [N::Sum; 2] {
         let [k1, _, k3, k4, k5, k6, k7] = rows(k, states[0].len());
         let k = [k1, k3, k4, k5, k6, k7];
@@ -96,7 +93,6 @@ impl RungeKutta for Rk45 {
         [sum, sum]
     }
 
-    #[inline]
     fn error_norm(h: f64, [sum, _]: [f64; 2], components: f64) -> f64 {
         h.abs() * (sum / components).sqrt()
     }

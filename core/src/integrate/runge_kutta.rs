@@ -44,7 +44,6 @@ pub(super) trait RungeKutta: 'static {
     ) -> Result<(), T::Stop>;
 
     /// Computes the extra stages of an accepted step, in the rows of `k` after the other stages.
-    #[inline]
     fn extend<T: TrialStages>(_: &mut T, _k: &mut [Block]) -> Result<(), T::Stop> {
         Ok(())
     }

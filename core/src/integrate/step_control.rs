@@ -52,7 +52,6 @@ impl StepControl {
 
 impl Default for StepControl {
     /// The tolerances [`USUAL`](Self::USUAL), without bounds.
-    #[inline]
     fn default() -> Self {
         Self::with(Self::USUAL)
     }
@@ -72,20 +71,17 @@ impl StepControl {
     }
 
     /// Step control with a pair (rtol, atol) of default tolerances.
-    #[inline]
     pub fn with((rtol, atol): (f64, f64)) -> Self {
         Self { atol: Atol::Scaled(atol), ..Self::new(rtol, atol) }
     }
 
     /// Step control with a constant step.
-    #[inline]
     pub fn constant(step: f64) -> Self {
         Self { step: Some(step), ..Self::with(Self::NEWTON) }
     }
 
     /// A copy with a relative tolerance of at least 100 ε, below which an estimated error is a rounding error. An
     /// invalid tolerance is kept, so that the checks report it.
-    #[inline]
     pub fn usable(&self) -> Self {
         let rtol = if (0.0..MIN_RTOL).contains(&self.rtol) { MIN_RTOL } else { self.rtol };
         Self { rtol, ..self.clone() }
@@ -109,7 +105,6 @@ impl StepControl {
     }
 
     /// Checks the options of a stepper that continues from another state. The first step is not checked again.
-    #[inline]
     pub(super) fn restart<E>(
         &self,
         span: (f64, f64),
@@ -123,7 +118,6 @@ impl StepControl {
     ///
     /// # Errors
     /// An impossible option or time; more steps than allowed.
-    #[inline]
     pub fn check_times<E>(&self, t0: f64, t_end: f64) -> Result<(), Cause<E>> {
         let controlled = match &self.atol {
             Atol::Scalar(_) | Atol::Scaled(_) => 0,
@@ -160,7 +154,6 @@ impl StepControl {
     }
 
     /// Checks that no other step option is set together with a constant step.
-    #[inline]
     fn check_constant<E>(&self) -> Result<(), Cause<E>> {
         const ABSENT: &str = "absent beside a constant step";
         require(self.first_step.is_none(), "first_step", self.first_step.unwrap_or(0.0), ABSENT)?;

@@ -12,6 +12,8 @@
 
 /// Factor on the step after the system refused the state at its end.
 const REFUSED: f64 = 0.7;
+/// An implicit method keeps the step and its matrices if the step could grow by less than this factor.
+pub(super) const KEEP: f64 = 1.2;
 /// Smallest factor from one step to the next.
 const MIN_FACTOR: f64 = 0.2;
 /// Largest factor from one step to the next.

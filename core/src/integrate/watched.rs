@@ -64,7 +64,6 @@ const DEEPEST: usize = 10;
 
 /// Whether a function may have further sign changes among three samples. It may if a parabola through the values a
 /// and b with the curvature of the samples can have two zeros.
-#[inline]
 fn may_turn([a, m, b]: [f64; 3]) -> bool {
     let line = a + BETWEEN * (b - a);
     let bend = (m - line).abs() / (BETWEEN * (1.0 - BETWEEN));

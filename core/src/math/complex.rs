@@ -1,7 +1,7 @@
 //! Complex numbers for linear algebra.
 
 use super::field::Field;
-use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, Mul, Neg, Sub};
 
 /// A complex number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,18 +47,7 @@ impl Neg for Complex {
         Self::new(-self.re, -self.im)
     }
 }
-impl AddAssign for Complex {
-    #[inline(always)]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl SubAssign for Complex {
-    #[inline(always)]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
-}
+super::operators::assign!(Complex);
 
 impl Field for Complex {
     #[inline(always)]

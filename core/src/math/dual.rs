@@ -4,7 +4,6 @@
 
 use super::base::OverBase;
 use super::real::{difference, ByValues, Lift, Real};
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A value with its derivatives with respect to `N` seeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,60 +59,24 @@ fn zip<const N: usize, S: Copy>(mut a: [S; N], b: [S; N], f: impl Fn(S, S) -> S)
     a
 }
 
-impl<const N: usize, S: Real> Add for Dual<N, S> {
-    type Output = Self;
-    #[inline]
-    fn add(self, o: Self) -> Self {
-        Self { value: self.value + o.value, slope: zip(self.slope, o.slope, |a, b| a + b) }
-    }
-}
-impl<const N: usize, S: Real> Sub for Dual<N, S> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, o: Self) -> Self {
-        Self { value: self.value - o.value, slope: zip(self.slope, o.slope, |a, b| a - b) }
-    }
-}
-impl<const N: usize, S: Real> Mul for Dual<N, S> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, o: Self) -> Self {
-        Self {
-            value: self.value * o.value,
-            slope: zip(self.slope, o.slope, |a, b| a * o.value + self.value * b),
-        }
-    }
-}
-impl<const N: usize, S: Real> Div for Dual<N, S> {
-    type Output = Self;
-    #[inline]
-    fn div(self, o: Self) -> Self {
-        let value = self.value / o.value;
-        Self { value, slope: zip(self.slope, o.slope, |a, b| (a - value * b) / o.value) }
-    }
-}
-impl<const N: usize, S: Real> Neg for Dual<N, S> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        let mut slope = self.slope;
+super::operators::operators! {#[inline] {const N: usize, S: Real} Dual<N, S>: |a, b|
+    + Self { value: a.value + b.value, slope: zip(a.slope, b.slope, |a, b| a + b) },
+    - Self { value: a.value - b.value, slope: zip(a.slope, b.slope, |a, b| a - b) },
+    * Self {
+        value: a.value * b.value,
+        slope: zip(a.slope, b.slope, |da, db| da * b.value + a.value * db),
+    },
+    / {
+        let value = a.value / b.value;
+        Self { value, slope: zip(a.slope, b.slope, |da, db| (da - value * db) / b.value) }
+    },
+    negative {
+        let mut slope = a.slope;
         for d in &mut slope {
             *d = -*d;
         }
-        Self { value: -self.value, slope }
-    }
-}
-impl<const N: usize, S: Real> AddAssign for Dual<N, S> {
-    #[inline]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl<const N: usize, S: Real> SubAssign for Dual<N, S> {
-    #[inline]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
+        Self { value: -a.value, slope }
+    },
 }
 
 impl<S: Real> OverBase for Dual<3, S> {
@@ -242,22 +205,7 @@ where
     fn spread(self) -> f64 {
         self.value.spread()
     }
-    #[inline]
-    fn least_magnitude(self) -> f64 {
-        self.value.least_magnitude()
-    }
-    #[inline]
-    fn largest_magnitude(self) -> f64 {
-        self.value.largest_magnitude()
-    }
-    #[inline]
-    fn of_lanes(values: [f64; 4]) -> Self {
-        Self::lift(S::of_lanes(values))
-    }
-    #[inline]
-    fn in_lanes(self) -> [f64; 4] {
-        self.value.in_lanes()
-    }
+    super::real::by_value!(|self| self.value);
     fn of_values(f: &dyn ByValues, x: &[Self]) -> Self {
         let (mut at, mut direction) = (vec![S::zero(); x.len()], vec![S::zero(); x.len()]);
         for (at, x) in at.iter_mut().zip(x) {

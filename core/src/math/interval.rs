@@ -7,7 +7,6 @@
 
 use super::real::Real;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// All numbers from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,52 +83,20 @@ impl Interval {
     }
 }
 
-impl Add for Interval {
-    type Output = Self;
-    fn add(self, o: Self) -> Self {
-        Self::rounded(self.low + o.low, self.high + o.high)
-    }
-}
-impl Sub for Interval {
-    type Output = Self;
-    fn sub(self, o: Self) -> Self {
-        Self::rounded(self.low - o.high, self.high - o.low)
-    }
-}
-impl Mul for Interval {
-    type Output = Self;
-    fn mul(self, o: Self) -> Self {
+super::operators::operators! {Interval: |a, b|
+    + Self::rounded(a.low + b.low, a.high + b.high),
+    - Self::rounded(a.low - b.high, a.high - b.low),
+    * {
         // zero times infinity is zero here: an infinite bound is not a number of the interval
         let product = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
-        let corners = |a| [product(a, o.low), product(a, o.high)];
-        Self::of([corners(self.low), corners(self.high)].as_flattened())
-    }
-}
-impl Div for Interval {
-    type Output = Self;
-    fn div(self, o: Self) -> Self {
-        if o.contains_zero() {
-            return Self::ALL;
-        }
-        let inverse = Self::rounded(1.0 / o.high, 1.0 / o.low);
-        self * inverse
-    }
-}
-impl Neg for Interval {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self { low: -self.high, high: -self.low }
-    }
-}
-impl AddAssign for Interval {
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl SubAssign for Interval {
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
+        let corners = |a| [product(a, b.low), product(a, b.high)];
+        Self::of([corners(a.low), corners(a.high)].as_flattened())
+    },
+    / match b.contains_zero() {
+        true => Self::ALL,
+        false => a * Self::rounded(1.0 / b.high, 1.0 / b.low),
+    },
+    negative Self { low: -a.high, high: -a.low },
 }
 
 super::base::is_base!(Interval, super::dual::Dual<1, Interval>);
@@ -149,14 +116,12 @@ impl Real for Interval {
         let quarter = Self::constant(FRAC_PI_2);
         ((self - quarter).cosine(), self.cosine())
     }
+    super::real::functions!(|self, f| self.rising(f); exp atan sinh tanh);
     fn sqrt(self) -> Self {
         if self.high < 0.0 {
             return Self::ALL;
         }
         Self { low: self.low.max(0.0), ..self }.rising(f64::sqrt)
-    }
-    fn exp(self) -> Self {
-        self.rising(f64::exp)
     }
     fn ln(self) -> Self {
         if self.high <= 0.0 {
@@ -166,9 +131,6 @@ impl Real for Interval {
     }
     fn asin(self) -> Self {
         self.and(Self::new(-1.0, 1.0)).rising(f64::asin)
-    }
-    fn atan(self) -> Self {
-        self.rising(f64::atan)
     }
     fn atan2(self, x: Self) -> Self {
         if x.low > 0.0 {
@@ -180,9 +142,6 @@ impl Real for Interval {
         let half = if self.low > 0.0 { FRAC_PI_2 } else { -FRAC_PI_2 };
         Self::rounded(half, half) - (x / self).atan()
     }
-    fn sinh(self) -> Self {
-        self.rising(f64::sinh)
-    }
     fn cosh(self) -> Self {
         let ends = [self.low.cosh(), self.high.cosh()];
         let found = Self::of(&ends);
@@ -191,9 +150,6 @@ impl Real for Interval {
         } else {
             found
         }
-    }
-    fn tanh(self) -> Self {
-        self.rising(f64::tanh)
     }
     fn powc(self, exponent: f64) -> Self {
         if exponent == 0.0 {

@@ -8,7 +8,6 @@ use super::base::OverBase;
 use super::dual::Dual;
 use super::real::{ByValues, Lift, Real};
 use crate::math::Listed;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A quantity with its first and second time derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,58 +49,19 @@ impl<S: Real> Lift<S> for Jet<S> {
     }
 }
 
-impl<S: Real> Add for Jet<S> {
-    type Output = Self;
-    #[inline]
-    fn add(self, o: Self) -> Self {
-        Self::new(self.value + o.value, self.rate + o.rate, self.second + o.second)
-    }
-}
-impl<S: Real> Sub for Jet<S> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, o: Self) -> Self {
-        Self::new(self.value - o.value, self.rate - o.rate, self.second - o.second)
-    }
-}
-impl<S: Real> Mul for Jet<S> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, o: Self) -> Self {
-        let cross = self.rate * o.rate;
+super::operators::operators! {#[inline] {S: Real} Jet<S>: |a, b|
+    + Self::new(a.value + b.value, a.rate + b.rate, a.second + b.second),
+    - Self::new(a.value - b.value, a.rate - b.rate, a.second - b.second),
+    * {
+        let cross = a.rate * b.rate;
         Self::new(
-            self.value * o.value,
-            self.rate * o.value + self.value * o.rate,
-            self.second * o.value + cross + cross + self.value * o.second,
+            a.value * b.value,
+            a.rate * b.value + a.value * b.rate,
+            a.second * b.value + cross + cross + a.value * b.second,
         )
-    }
-}
-impl<S: Real> Div for Jet<S> {
-    type Output = Self;
-    #[allow(clippy::suspicious_arithmetic_impl)] // x/y as x · (1/y): one chain rule instead of two
-    #[inline]
-    fn div(self, o: Self) -> Self {
-        self * o.recip()
-    }
-}
-impl<S: Real> Neg for Jet<S> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        Self::new(-self.value, -self.rate, -self.second)
-    }
-}
-impl<S: Real> AddAssign for Jet<S> {
-    #[inline]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl<S: Real> SubAssign for Jet<S> {
-    #[inline]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
+    },
+    / a * b.recip(), // one chain rule instead of two
+    negative Self::new(-a.value, -a.rate, -a.second),
 }
 
 impl<S: Real> OverBase for Jet<S> {
@@ -234,22 +194,7 @@ impl<S: Real> Real for Jet<S> {
     fn floor(self) -> Self {
         Self::lift(self.value.floor())
     }
-    #[inline]
-    fn least_magnitude(self) -> f64 {
-        self.value.least_magnitude()
-    }
-    #[inline]
-    fn largest_magnitude(self) -> f64 {
-        self.value.largest_magnitude()
-    }
-    #[inline]
-    fn of_lanes(values: [f64; 4]) -> Self {
-        Self::lift(S::of_lanes(values))
-    }
-    #[inline]
-    fn in_lanes(self) -> [f64; 4] {
-        self.value.in_lanes()
-    }
+    super::real::by_value!(|self| self.value);
     fn of_values(f: &dyn ByValues, x: &[Self]) -> Self {
         // along the path x + ẋ τ + ẍ τ²/2
         let at = |tau: f64| -> S {

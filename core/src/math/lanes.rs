@@ -4,7 +4,6 @@ use super::array::each;
 use super::real::{ByValues, Lift, Real};
 use super::sine;
 use crate::math::Listed;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use wide::f64x4;
 
 /// [`Lanes::WIDTH`] independent values of one quantity, one for each state or design.
@@ -136,53 +135,13 @@ impl Lanes {
     }
 }
 
-impl Add for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, o: Self) -> Self {
-        Self(self.0 + o.0)
-    }
-}
-impl Sub for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, o: Self) -> Self {
-        Self(self.0 - o.0)
-    }
-}
-impl Mul for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, o: Self) -> Self {
-        Self(self.0 * o.0)
-    }
-}
-impl Div for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, o: Self) -> Self {
-        Self(self.0 / o.0)
-    }
-}
-impl Neg for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        // changes only the sign; 0 - x would turn -0 into 0
-        Self(self.0 ^ f64x4::splat(-0.0))
-    }
-}
-impl AddAssign for Lanes {
-    #[inline(always)]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl SubAssign for Lanes {
-    #[inline(always)]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
+super::operators::operators! {#[inline(always)] Lanes: |a, b|
+    + Self(a.0 + b.0),
+    - Self(a.0 - b.0),
+    * Self(a.0 * b.0),
+    / Self(a.0 / b.0),
+    // changes only the sign; 0 - x would turn -0 into 0
+    negative Self(a.0 ^ f64x4::splat(-0.0)),
 }
 
 super::base::is_base!(Lanes);
@@ -192,6 +151,7 @@ impl Real for Lanes {
     fn constant(x: f64) -> Self {
         Self(f64x4::splat(x))
     }
+    super::real::functions!(|self, f| self.each(f); exp ln asin acos atan sinh cosh tanh floor);
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         sine::sin_cos_of_lanes(self)
@@ -209,40 +169,8 @@ impl Real for Lanes {
         Self(self.0.sqrt())
     }
     #[inline]
-    fn exp(self) -> Self {
-        self.each(f64::exp)
-    }
-    #[inline]
-    fn ln(self) -> Self {
-        self.each(f64::ln)
-    }
-    #[inline]
-    fn asin(self) -> Self {
-        self.each(f64::asin)
-    }
-    #[inline]
-    fn acos(self) -> Self {
-        self.each(f64::acos)
-    }
-    #[inline]
-    fn atan(self) -> Self {
-        self.each(f64::atan)
-    }
-    #[inline]
     fn atan2(self, x: Self) -> Self {
         self.zip(x, f64::atan2)
-    }
-    #[inline]
-    fn sinh(self) -> Self {
-        self.each(f64::sinh)
-    }
-    #[inline]
-    fn cosh(self) -> Self {
-        self.each(f64::cosh)
-    }
-    #[inline]
-    fn tanh(self) -> Self {
-        self.each(f64::tanh)
     }
     #[inline]
     fn powc(self, exponent: f64) -> Self {
@@ -255,10 +183,6 @@ impl Real for Lanes {
     #[inline(always)]
     fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
         Self(wide::CmpGt::cmp_gt(condition.0, f64x4::ZERO).blend(positive.0, otherwise.0))
-    }
-    #[inline]
-    fn floor(self) -> Self {
-        self.each(f64::floor)
     }
     #[inline(always)]
     fn abs(self) -> Self {

@@ -16,6 +16,7 @@ mod interval;
 mod jet;
 mod lanes;
 mod list;
+pub(crate) mod operators;
 mod order;
 mod plane;
 mod random;

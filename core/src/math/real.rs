@@ -157,11 +157,47 @@ pub trait Real:
     }
 }
 
+/// The methods of [`Real`] that a scalar has from its value of type `S`.
+macro_rules! by_value {
+    (|$self:ident| $value:expr) => {
+        #[inline]
+        fn least_magnitude($self) -> f64 {
+            $value.least_magnitude()
+        }
+        #[inline]
+        fn largest_magnitude($self) -> f64 {
+            $value.largest_magnitude()
+        }
+        #[inline]
+        fn of_lanes(values: [f64; 4]) -> Self {
+            Self::lift(S::of_lanes(values))
+        }
+        #[inline]
+        fn in_lanes($self) -> [f64; 4] {
+            $value.in_lanes()
+        }
+    };
+}
+pub(super) use by_value;
+
+/// Methods of [`Real`] that apply the functions `f` of `f64` with their names.
+macro_rules! functions {
+    (|$self:ident, $f:ident| $apply:expr; $($name:ident)+) => {$(
+        #[inline]
+        fn $name($self) -> Self {
+            let $f = f64::$name;
+            $apply
+        }
+    )+};
+}
+pub(super) use functions;
+
 impl Real for f64 {
     #[inline]
     fn constant(x: f64) -> Self {
         x
     }
+    functions!(|self, f| f(self); sqrt exp ln asin acos atan sinh cosh tanh floor abs);
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         super::sine::sin_cos(self)
@@ -178,44 +214,8 @@ impl Real for f64 {
         self.plus_product(-a, b)
     }
     #[inline]
-    fn sqrt(self) -> Self {
-        f64::sqrt(self)
-    }
-    #[inline]
-    fn exp(self) -> Self {
-        f64::exp(self)
-    }
-    #[inline]
-    fn ln(self) -> Self {
-        f64::ln(self)
-    }
-    #[inline]
-    fn asin(self) -> Self {
-        f64::asin(self)
-    }
-    #[inline]
-    fn acos(self) -> Self {
-        f64::acos(self)
-    }
-    #[inline]
-    fn atan(self) -> Self {
-        f64::atan(self)
-    }
-    #[inline]
     fn atan2(self, x: Self) -> Self {
         f64::atan2(self, x)
-    }
-    #[inline]
-    fn sinh(self) -> Self {
-        f64::sinh(self)
-    }
-    #[inline]
-    fn cosh(self) -> Self {
-        f64::cosh(self)
-    }
-    #[inline]
-    fn tanh(self) -> Self {
-        f64::tanh(self)
     }
     #[inline]
     fn powc(self, exponent: f64) -> Self {
@@ -237,14 +237,6 @@ impl Real for f64 {
         } else {
             otherwise
         }
-    }
-    #[inline]
-    fn floor(self) -> Self {
-        f64::floor(self)
-    }
-    #[inline]
-    fn abs(self) -> Self {
-        f64::abs(self)
     }
     #[inline(always)]
     fn least_magnitude(self) -> f64 {
@@ -340,19 +332,6 @@ impl<S: Real> Largest<S> {
         let x = x.abs();
         self.most = x.max(self.most);
         self.sum += x;
-    }
-
-    /// Includes the numbers of another maximum.
-    #[inline(always)]
-    pub fn join(&mut self, other: Self) {
-        self.most = self.most.max(other.most);
-        self.sum += other.sum;
-    }
-
-    /// The maximum of c times the numbers so far, c > 0.
-    #[inline(always)]
-    pub fn scaled(self, c: S) -> Self {
-        Self { most: c * self.most, sum: c * self.sum }
     }
 
     /// The largest magnitude so far.

@@ -9,7 +9,6 @@
 use super::base::OverBase;
 use super::dual::Dual;
 use super::real::{Lift, Real};
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// Largest exponent of a power that is computed by products; `f64` computes such powers in the same way.
 const MOST_PRODUCTS: f64 = 16.0;
@@ -135,67 +134,31 @@ impl<const N: usize, S: Real> Lift<S> for TaylorSeries<N, S> {
     }
 }
 
-impl<const N: usize, S: Real> Add for TaylorSeries<N, S> {
-    type Output = Self;
-    #[inline]
-    fn add(self, o: Self) -> Self {
-        self.with(o, |a, b| a + b)
-    }
-}
-impl<const N: usize, S: Real> Sub for TaylorSeries<N, S> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, o: Self) -> Self {
-        self.with(o, |a, b| a - b)
-    }
-}
-impl<const N: usize, S: Real> Mul for TaylorSeries<N, S> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, o: Self) -> Self {
+super::operators::operators! {#[inline] {const N: usize, S: Real} TaylorSeries<N, S>: |a, b|
+    + a.with(b, |a, b| a + b),
+    - a.with(b, |a, b| a - b),
+    * {
         let mut product = [S::zero(); N];
         for j in 0..N {
             for k in j..N {
-                product[k] += self.0[j] * o.0[k - j];
+                product[k] += a.0[j] * b.0[k - j];
             }
         }
         Self(product)
-    }
-}
-impl<const N: usize, S: Real> Div for TaylorSeries<N, S> {
-    type Output = Self;
-    #[inline]
-    fn div(self, o: Self) -> Self {
-        let (mut quotient, inverse) = (self.0, S::one() / o.0[0]);
-        quotient[0] = quotient[0] / o.0[0];
+    },
+    / {
+        let (mut quotient, inverse) = (a.0, S::one() / b.0[0]);
+        quotient[0] = quotient[0] / b.0[0];
         for k in 1..N {
             for j in 0..k {
                 let before = quotient[j];
-                quotient[k] -= before * o.0[k - j];
+                quotient[k] -= before * b.0[k - j];
             }
             quotient[k] = quotient[k] * inverse;
         }
         Self(quotient)
-    }
-}
-impl<const N: usize, S: Real> Neg for TaylorSeries<N, S> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        self.with(self, |a, _| -a)
-    }
-}
-impl<const N: usize, S: Real> AddAssign for TaylorSeries<N, S> {
-    #[inline]
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl<const N: usize, S: Real> SubAssign for TaylorSeries<N, S> {
-    #[inline]
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
+    },
+    negative a.with(a, |a, _| -a),
 }
 
 impl<const N: usize, S: Real> OverBase for TaylorSeries<N, S> {
@@ -289,18 +252,7 @@ impl<const N: usize, S: Real> Real for TaylorSeries<N, S> {
     fn floor(self) -> Self {
         Self::lift(self.0[0].floor())
     }
-    fn least_magnitude(self) -> f64 {
-        self.0[0].least_magnitude()
-    }
-    fn largest_magnitude(self) -> f64 {
-        self.0[0].largest_magnitude()
-    }
-    fn in_lanes(self) -> [f64; 4] {
-        self.0[0].in_lanes()
-    }
-    fn of_lanes(values: [f64; 4]) -> Self {
-        Self::lift(S::of_lanes(values))
-    }
+    super::real::by_value!(|self| self.0[0]);
     fn is_constant(self) -> bool {
         let zero = |x: &S| x.is_constant() && x.largest_magnitude() == 0.0;
         self.0[0].is_constant() && self.0[1..].iter().all(zero)

@@ -2,7 +2,7 @@
 
 use super::breakdown::Breakdown;
 use super::structure::Group;
-use crate::math::{indexed, Listed, Real};
+use crate::math::{Listed, Real};
 
 /// Smallest accepted ratio of a pivot to the diagonal entry before cancellation.
 pub const PIVOT_TOLERANCE: f64 = 1e-13;
@@ -32,12 +32,6 @@ impl<S: Real> InverseMass<S> {
         let zero = S::zero();
         let direction = [zero, zero, S::one()];
         Self { translation: [d0, d1], along: d2, direction, held: zero }
-    }
-
-    /// The inverse of a block of `size` unknowns with equal diagonal entries.
-    #[inline]
-    pub fn first(size: usize, inverse: S) -> Self {
-        Self::diagonal(indexed(|k| if k < size { inverse } else { S::one() }))
     }
 
     /// W⁻¹ f.

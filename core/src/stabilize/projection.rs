@@ -325,7 +325,6 @@ impl<'a, S: Real> Projector<'a, S> {
     }
 
     /// Updates the motions for the current state.
-    #[inline]
     fn move_bodies(&self, motions: &mut Motions<S>, (q, v): (&[S], &[S])) {
         match self.known {
             Known::Nothing => motions.place(&self.model.layout, q, v),

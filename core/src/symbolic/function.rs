@@ -1,55 +1,32 @@
 //! Functions that remain in an expression.
 
-/// A function of one or two expressions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) enum Function {
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Atan2,
-    Sinh,
-    Cosh,
-    Tanh,
-    Exp,
-    Ln,
-    Floor,
-    Abs,
-    Sign,
-    Step,
-    Max,
-    Min,
-    Power,
+/// Functions with their names in the language of expressions.
+macro_rules! functions {
+    ($($Function:ident $name:literal),+ $(,)?) => {
+        /// A function of one or two expressions.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub(super) enum Function {
+            $($Function),+
+        }
+
+        impl Function {
+            /// The name in the language of expressions; a power is written as an operator.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$Function => $name),+
+                }
+            }
+        }
+    };
+}
+
+functions! {
+    Sin "sin", Cos "cos", Tan "tan", Asin "asin", Acos "acos", Atan "atan", Atan2 "atan2",
+    Sinh "sinh", Cosh "cosh", Tanh "tanh", Exp "exp", Ln "ln", Floor "floor",
+    Abs "abs", Sign "sign", Step "step", Max "max", Min "min", Power "^",
 }
 
 impl Function {
-    /// The name in the language of expressions; a power is written as an operator.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sin => "sin",
-            Self::Cos => "cos",
-            Self::Tan => "tan",
-            Self::Asin => "asin",
-            Self::Acos => "acos",
-            Self::Atan => "atan",
-            Self::Atan2 => "atan2",
-            Self::Sinh => "sinh",
-            Self::Cosh => "cosh",
-            Self::Tanh => "tanh",
-            Self::Exp => "exp",
-            Self::Ln => "ln",
-            Self::Floor => "floor",
-            Self::Abs => "abs",
-            Self::Sign => "sign",
-            Self::Step => "step",
-            Self::Max => "max",
-            Self::Min => "min",
-            Self::Power => "^",
-        }
-    }
-
     /// The value for constant arguments. `None` if the function itself is easier to read.
     pub fn value(self, x: &[f64]) -> Option<f64> {
         use std::f64::consts::FRAC_PI_2;

@@ -4,57 +4,32 @@ use super::arena::{Node, ONE, ZERO};
 use super::function::Function;
 use super::record::{constant, with, Symbolic};
 use crate::math::Real;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 fn call(function: Function, x: Symbolic) -> Symbolic {
     with(|arena, own| arena.call(function, &[own(x)]))
 }
 
-impl Add for Symbolic {
-    type Output = Self;
-    fn add(self, o: Self) -> Self {
-        with(|arena, own| arena.sum(vec![(own(self), 1.0), (own(o), 1.0)]))
-    }
-}
-impl Sub for Symbolic {
-    type Output = Self;
-    fn sub(self, o: Self) -> Self {
-        with(|arena, own| arena.sum(vec![(own(self), 1.0), (own(o), -1.0)]))
-    }
-}
-impl Mul for Symbolic {
-    type Output = Self;
-    fn mul(self, o: Self) -> Self {
-        with(|arena, own| arena.multiply(own(self), own(o)))
-    }
-}
-impl Div for Symbolic {
-    type Output = Self;
-    fn div(self, o: Self) -> Self {
-        with(|arena, own| {
-            let inverse = arena.power(own(o), -1.0);
-            arena.multiply(own(self), inverse)
-        })
-    }
-}
-impl Neg for Symbolic {
-    type Output = Self;
-    fn neg(self) -> Self {
-        with(|arena, own| arena.sum(vec![(own(self), -1.0)]))
-    }
-}
-impl AddAssign for Symbolic {
-    fn add_assign(&mut self, o: Self) {
-        *self = *self + o;
-    }
-}
-impl SubAssign for Symbolic {
-    fn sub_assign(&mut self, o: Self) {
-        *self = *self - o;
-    }
+crate::math::operators::operators! {Symbolic: |a, b|
+    + with(|arena, own| arena.sum(vec![(own(a), 1.0), (own(b), 1.0)])),
+    - with(|arena, own| arena.sum(vec![(own(a), 1.0), (own(b), -1.0)])),
+    * with(|arena, own| arena.multiply(own(a), own(b))),
+    / with(|arena, own| {
+        let inverse = arena.power(own(b), -1.0);
+        arena.multiply(own(a), inverse)
+    }),
+    negative with(|arena, own| arena.sum(vec![(own(a), -1.0)])),
 }
 
 crate::math::base::is_base!(Symbolic);
+
+/// Methods of [`Real`] that remain as functions in an expression.
+macro_rules! calls {
+    ($($name:ident: $Function:ident),+ $(,)?) => {$(
+        fn $name(self) -> Self {
+            call(Function::$Function, self)
+        }
+    )+};
+}
 
 impl Real for Symbolic {
     fn constant(x: f64) -> Self {
@@ -67,38 +42,15 @@ impl Real for Symbolic {
     fn sin_cos(self) -> (Self, Self) {
         (call(Function::Sin, self), call(Function::Cos, self))
     }
-    fn tan(self) -> Self {
-        call(Function::Tan, self)
+    calls! {
+        tan: Tan, exp: Exp, ln: Ln, asin: Asin, acos: Acos, atan: Atan, sinh: Sinh, cosh: Cosh, tanh: Tanh,
+        floor: Floor,
     }
     fn sqrt(self) -> Self {
         self.powc(0.5)
     }
-    fn exp(self) -> Self {
-        call(Function::Exp, self)
-    }
-    fn ln(self) -> Self {
-        call(Function::Ln, self)
-    }
-    fn asin(self) -> Self {
-        call(Function::Asin, self)
-    }
-    fn acos(self) -> Self {
-        call(Function::Acos, self)
-    }
-    fn atan(self) -> Self {
-        call(Function::Atan, self)
-    }
     fn atan2(self, x: Self) -> Self {
         with(|arena, own| arena.call(Function::Atan2, &[own(self), own(x)]))
-    }
-    fn sinh(self) -> Self {
-        call(Function::Sinh, self)
-    }
-    fn cosh(self) -> Self {
-        call(Function::Cosh, self)
-    }
-    fn tanh(self) -> Self {
-        call(Function::Tanh, self)
     }
     fn powc(self, exponent: f64) -> Self {
         with(|arena, own| arena.power(own(self), exponent))
@@ -111,9 +63,6 @@ impl Real for Symbolic {
     }
     fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
         with(|arena, own| arena.select(own(condition), own(positive), own(otherwise)))
-    }
-    fn floor(self) -> Self {
-        call(Function::Floor, self)
     }
     /// The magnitude of a constant; 1 for all other expressions.
     fn least_magnitude(self) -> f64 {

@@ -10,7 +10,7 @@ import typer
 from rich.text import Text
 
 from kempe.cli.arguments import AsJson, stem
-from kempe.cli.console import answers, figure, heading, table
+from kempe.cli.console import answers, figure, list_files, table
 from kempe.cli.failure import document
 
 if TYPE_CHECKING:
@@ -74,9 +74,7 @@ def cam(  # noqa: PLR0917 - typer uses the annotations of options and arguments
         written = save(cam_pages(found), folder / "figures")
         if not found.undercut:
             written = [*_write(found, folder, step, cutter_radius, unit), *written]
-        heading(console, "Files")
-        for path in written:
-            console.print(Text(f"  {path}"))
+        list_files(console, written)
         content.update({**_summary(found), "files": [str(path) for path in written]})
 
 

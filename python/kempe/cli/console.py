@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from math import isfinite
+from pathlib import Path
 
 from rich.console import Console
 from rich.text import Text
@@ -28,6 +29,13 @@ def heading(console: Console, text: str) -> None:
     """Print an empty line and a title."""
     console.print()
     console.print(Text(text, style="bold"))
+
+
+def list_files(console: Console, written: Iterable[Path]) -> None:
+    """Print the names of written files below a title."""
+    heading(console, "Files")
+    for path in written:
+        console.print(Text(f"  {path}"))
 
 
 def table(

@@ -20,7 +20,7 @@ from kempe.cli.arguments import (
     shown_in,
     stem,
 )
-from kempe.cli.console import answers, heading, in_unit, symbol, table
+from kempe.cli.console import answers, heading, in_unit, list_files, symbol, table
 from kempe.cli.failure import document
 from kempe.cli.rewriting import save_changed
 
@@ -64,9 +64,7 @@ def fit(  # noqa: PLR0917 - typer uses the annotations of options and arguments
         written = [folder / "fitted.toml", folder / "residuals.csv"]
         written += save(fit_pages(found), folder / "figures")
         content.update({**_summary(found, measured), "files": [str(path) for path in written]})
-        heading(console, "Files")
-        for path in written:
-            console.print(Text(f"  {path}"))
+        list_files(console, written)
 
 
 def _show(console: Console, found: Fit, measured: Data) -> None:

@@ -19,7 +19,7 @@ from kempe.cli.arguments import (
     shown_in,
     stem,
 )
-from kempe.cli.console import answers, figure, heading, table
+from kempe.cli.console import answers, figure, list_files, table
 from kempe.cli.failure import document
 
 if TYPE_CHECKING:
@@ -77,9 +77,7 @@ def gradient(  # noqa: PLR0917 - typer uses the annotations of options and argum
         found.to_csv(folder / "gradient.csv")
         written = [folder / "gradient.csv", *save(gradient_pages(found), folder / "figures")]
         content.update({**_summary(found), "files": [str(path) for path in written]})
-        heading(console, "Files")
-        for path in written:
-            console.print(Text(f"  {path}"))
+        list_files(console, written)
 
 
 def _show(console: Console, found: Gradient) -> None:

@@ -21,7 +21,7 @@ from kempe.cli.arguments import (
     shown_in,
     stem,
 )
-from kempe.cli.console import answers, figure, heading, in_unit, remarks, symbol, table
+from kempe.cli.console import answers, figure, heading, in_unit, list_files, remarks, symbol, table
 from kempe.cli.failure import document
 from kempe.cli.rewriting import save_changed
 
@@ -208,9 +208,7 @@ def _with_unit(value: float, unit: str) -> str:
 
 
 def _files(console: Console, written: list[Path]) -> None:
-    heading(console, "Files")
-    for path in written:
-        console.print(Text(f"  {path}"))
+    list_files(console, written)
 
 
 def _summary(best: Optimum) -> dict[str, Any]:

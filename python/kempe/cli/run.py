@@ -30,7 +30,7 @@ from kempe.cli.arguments import (
     stem,
 )
 from kempe.cli.clock import Clock
-from kempe.cli.console import answers, heading, remarks
+from kempe.cli.console import answers, heading, list_files, remarks
 from kempe.cli.drawings import refuse_impossible
 from kempe.cli.failure import document
 from kempe.cli.figures import Which
@@ -139,9 +139,7 @@ class _Finished:
         else:
             summary, written = self._motion(name, found, folder)
         self.summaries[name] = {**summary, "files": [str(path) for path in written]}
-        heading(self.console, "Files")
-        for path in written:
-            self.console.print(Text(f"  {path}"))
+        list_files(self.console, written)
 
     def _motion(
         self, name: str, solution: Solution, folder: Path

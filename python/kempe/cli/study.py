@@ -20,7 +20,7 @@ from kempe.cli.arguments import (
     shown_in,
     stem,
 )
-from kempe.cli.console import answers, heading, remarks, table
+from kempe.cli.console import answers, heading, list_files, remarks, table
 from kempe.cli.failure import document
 
 if TYPE_CHECKING:
@@ -62,9 +62,7 @@ def study(  # noqa: PLR0917 - typer distinguishes options by their annotations
         written = [*found.save(folder), *study_figures.write(found, folder / "figures")]
         files = [str(path) for path in written]
         content.update({**json.loads(json_text(found)), "files": files})
-    heading(console, "Files")
-    for path in written:
-        console.print(Text(f"  {path}"))
+    list_files(console, written)
 
 
 def computed(case: Case, analysis: str | None = None) -> Study:

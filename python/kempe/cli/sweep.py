@@ -22,7 +22,7 @@ from kempe.cli.arguments import (
     shown_in,
     stem,
 )
-from kempe.cli.console import answers, figure, heading, remarks, table
+from kempe.cli.console import answers, figure, heading, list_files, remarks, table
 from kempe.cli.failure import document
 from kempe.errors import FileError, ModelError
 
@@ -109,9 +109,7 @@ def _finish(found: SweepResult, folder: Path, content: dict[str, Any], console: 
     found.to_csv(folder / "sweep.csv")
     written = [folder / "sweep.csv", *save(sweep_pages(found), folder / "figures")]
     content.update({**_summary(found), "files": [str(path) for path in written]})
-    heading(console, "Files")
-    for path in written:
-        console.print(Text(f"  {path}"))
+    list_files(console, written)
 
 
 def _client(scheduler: str | None) -> Any:

@@ -10,7 +10,7 @@ import typer
 from rich.text import Text
 
 from kempe.cli.arguments import AsJson, stem
-from kempe.cli.console import answers, figure, heading, table
+from kempe.cli.console import answers, figure, list_files, table
 from kempe.cli.failure import document
 from kempe.errors import ModelError
 
@@ -84,9 +84,7 @@ def synthesis(  # noqa: PLR0917 - typer uses the annotations of options and argu
             table(console, ["", "type", "error", "transmission angle", "size [m]", "defects"], rows)
             written = _write(found, folder)
             written += save(synthesis_pages(found), folder / "figures")
-            heading(console, "Files")
-            for path in written:
-                console.print(Text(f"  {path}"))
+            list_files(console, written)
         content.update({**_summary(found), "files": [str(path) for path in written]})
 
 

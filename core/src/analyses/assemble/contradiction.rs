@@ -5,7 +5,7 @@
 //! shows which ones. A row that is dependent only at a limit of the motion, such as a dead point, is not a
 //! contradiction. Dependence is therefore also checked at a neighbouring position.
 
-use super::culprits::OpenGroup;
+use super::culprits::{OpenGroup, MOST_ROWS};
 use super::failure::{freed, Failure, Fault};
 use super::holding::SET;
 use super::openings::Openings;
@@ -26,8 +26,6 @@ use crate::model::{is_weld, listed, row_scales, shown, Model};
 use crate::solve::RANK_TOLERANCE;
 use std::sync::Arc;
 
-/// Largest number of equations of a model for which contradictions are searched.
-const MOST_ROWS: usize = 300;
 /// Distance of the neighbouring position, rad.
 const NEIGHBOUR: f64 = 0.02;
 /// Largest relative residual of velocities that are compatible.
@@ -186,10 +184,7 @@ pub(super) fn of_rates(
         met.pop();
         met.sort_unstable();
         let others = dependent(model, t, q, (&met, last), stop)?;
-        let m = model.layout.n_rows;
-        let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
-        let motions = Motions::at(&model.layout, q, &v);
-        constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
+        let [_, rate, _] = constraints::terms_at(model, &Motions::at(&model.layout, q, &v), t);
         let rows = model.layout.constraints[last].rows.clone();
         let by = model.constraints[last].largest(&rate[rows]);
         let found = Contradiction { met: others, missed: last, by, order: 1 };
@@ -213,10 +208,8 @@ pub(super) fn of_accelerations(
     let kept: Vec<usize> = (0..extended.constraints.len()).filter(|k| !left_out.contains(k)).list();
     let mut v = vec![0.0; q.len()];
     velocities::project(&keeping(extended, &kept), request.t, q, &mut v);
-    let m = model.layout.n_rows;
-    let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
     let motions = Motions::at(&model.layout, q, &v);
-    constraints::velocity_terms(model, &motions, request.t, &mut phi, &mut rate, &mut gamma);
+    let [_, _, gamma] = constraints::terms_at(model, &motions, request.t);
     let scales = row_scales(model);
     redundant.iter().find_map(|one| {
         let missed = last(one)?;

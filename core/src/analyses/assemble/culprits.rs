@@ -7,8 +7,8 @@ use crate::model::Model;
 
 /// Distance of a further start, in sizes of the mechanism or in rad.
 const BESIDE: f64 = 0.5;
-/// Largest number of equations of a model for which the group is sought.
-const MOST_ROWS: usize = 300;
+/// Largest number of equations of a model in which groups and contradictions are searched.
+pub(super) const MOST_ROWS: usize = 300;
 
 /// A group that cannot close.
 pub(super) struct OpenGroup {

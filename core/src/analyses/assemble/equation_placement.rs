@@ -3,7 +3,7 @@
 
 use super::legs::Leg;
 use super::placer::Placer;
-use super::slider_placement::Rail;
+use super::slider_placement::{Rail, ACROSS};
 use crate::elements::{At, BodyId, Coordinate, Fixes};
 use crate::equations::Laws;
 use crate::math::{each, Listed, Local, Ordered, Pose, Rotation, Twist, Vec2};
@@ -12,8 +12,6 @@ use crate::math::{each, Listed, Local, Ordered, Pose, Rotation, Twist, Vec2};
 const SAMPLES: usize = 72;
 /// Largest change of an equation, relative to the size, that counts as zero.
 pub(super) const NOTHING: f64 = 1e-9;
-/// Smallest component of a line along a coordinate for which the coordinate determines the position.
-const ACROSS: f64 = 1e-9;
 
 /// The remaining freedom of a body.
 pub(super) enum Freedom {

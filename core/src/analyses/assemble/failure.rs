@@ -48,6 +48,14 @@ pub struct Failure {
     pub places: Vec<Vec<String>>,
 }
 
+impl Failure {
+    /// A mechanism that stays open at a joint or driver.
+    pub(super) fn open(name: &str, gap: f64, message: String, hint: impl Into<String>) -> Self {
+        let (name, hint) = (name.to_string(), hint.into());
+        Self { fault: Fault::Open, name, gap, message, hint, places: Vec::new() }
+    }
+}
+
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}; {}", self.message, self.hint)
@@ -80,10 +88,8 @@ pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
         return None; // the position is the fault, not a law
     }
     let motions = Motions::at_rest(&model.layout, q);
-    let m = model.layout.n_rows;
-    let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
-    constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
-    let mut slope = vec![0.0; m];
+    let [phi, rate, _] = constraints::terms_at(model, &motions, t);
+    let mut slope = vec![0.0; phi.len()];
     let mut entries = vec![0.0; model.layout.n_entries];
     constraints::jacobian(model, &motions, t, &mut entries);
     for (row, _, at) in model.layout.positions() {
@@ -97,23 +103,12 @@ pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
     let (item, what) = lacks(&phi, "value").or_else(|| lacks(&slope, "derivative"))?;
     let (kind, name) = (item.group.singular(), &item.name);
     if let Some(table) = refusal(model, item, &motions, t) {
-        return Some(Failure {
-            fault: Fault::Open,
-            name: name.clone(),
-            gap: 0.0,
-            message: format!("the law of {kind} {name} has no value at t = {t} s: {table}"),
-            hint: TABLE_ENDS.to_string(),
-            places: Vec::new(),
-        });
+        let message = format!("the law of {kind} {name} has no value at t = {t} s: {table}");
+        return Some(Failure::open(name, 0.0, message, TABLE_ENDS));
     }
-    Some(Failure {
-        fault: Fault::Open,
-        name: name.clone(),
-        gap: 0.0,
-        message: format!("the law of {kind} {name} has no finite {what} at t = {t} s"),
-        hint: "change the law, or start at a time and position where it has one".to_string(),
-        places: Vec::new(),
-    })
+    let message = format!("the law of {kind} {name} has no finite {what} at t = {t} s");
+    let hint = "change the law, or start at a time and position where it has one";
+    Some(Failure::open(name, 0.0, message, hint))
 }
 
 /// The failure of a mechanism with rigid beams.
@@ -139,8 +134,8 @@ fn refusal(model: &Model, item: &ConstraintItem, motions: &Motions, t: f64) -> O
 
 /// Failure of a contact beyond the end of its curve.
 pub(super) fn off_the_curve((name, message): (String, String)) -> Failure {
-    let hint = "extend the range of the curve, or give a guess of the contact on it".to_string();
-    Failure { fault: Fault::Open, name, gap: 0.0, message, hint, places: Vec::new() }
+    let hint = "extend the range of the curve, or give a guess of the contact on it";
+    Failure::open(&name, 0.0, message, hint)
 }
 
 fn dyad_open(model: &Model, request: &Request, gap: &DyadGap) -> Failure {
@@ -165,20 +160,14 @@ fn dyad_open(model: &Model, request: &Request, gap: &DyadGap) -> Failure {
     let loop_ = loop_through(model, gap.joint, &all).unwrap_or_else(|| format!("{a}-{b}"));
     let set = asked(model, of_motion(&request.set));
     let change = if set.is_empty() { String::new() } else { ", or change what is set".to_string() };
-    Failure {
-        fault: Fault::Open,
-        name: joint.to_string(),
-        gap: missing,
-        message: format!("the loop {loop_} cannot close: {set}{fault}"),
-        hint: format!("{hint}{change}"),
-        places: Vec::new(),
-    }
+    let message = format!("the loop {loop_} cannot close: {set}{fault}");
+    Failure::open(joint, missing, message, format!("{hint}{change}"))
 }
 
 fn stays_open(model: &Model, request: &Request, phi: &[f64], group: &[usize]) -> Failure {
     let open = Openings::of(model, phi, group.iter().copied()).expect("a joint that is open");
     let (worst, missed) = open.worst;
-    let name = shown(&model.constraints[worst].name).to_string();
+    let name = shown(&model.constraints[worst].name);
     // if a driver or a set coordinate has the largest error, the constraints contradict each other
     let joint = model.constraints[worst].group == Group::Joints;
     let around = match loop_through(model, worst, group).filter(|_| joint) {
@@ -195,7 +184,7 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64], group: &[usize]) ->
     };
     let gap = if open.kind == QuantityKind::Length { open.total } else { 0.0 };
     let hint = "give a guess nearer to the position meant, change what is set, or change lengths";
-    Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string(), places: Vec::new() }
+    Failure::open(name, gap, message, hint)
 }
 
 /// The text "with crank.angle = 70° ", or an empty text.
@@ -275,35 +264,21 @@ fn ends(item: &ConstraintItem) -> [usize; 2] {
 pub(super) fn rates(model: &Model, request: &Request) -> Failure {
     let mut set = of_rates(&request.set);
     let name = set.clone().next().map_or(String::new(), |target| target.name(model));
-    Failure {
-        fault: Fault::Rates,
-        name,
-        gap: 0.0,
-        message: format!(
-            "{}the velocities contradict the constraints or each other",
-            asked(model, &mut set)
-        ),
-        hint: "remove a rate that is set, or start at a position that is not singular".to_string(),
-        places: Vec::new(),
-    }
+    let told = asked(model, &mut set);
+    let message = format!("{told}the velocities contradict the constraints or each other");
+    let hint = "remove a rate that is set, or start at a position that is not singular";
+    Failure { fault: Fault::Rates, ..Failure::open(&name, 0.0, message, hint) }
 }
 
 /// Failure of a quantity that the mechanism must hold: it has another value, or it is not held.
 pub(super) fn unmet(unmet: Unmet) -> Failure {
-    let Unmet { name, gap, message, hint } = unmet;
-    Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string(), places: Vec::new() }
+    Failure::open(&unmet.name, unmet.gap, unmet.message, unmet.hint)
 }
 
 /// Failure because the caller ended the assembly.
 pub(super) fn stopped() -> Failure {
-    Failure {
-        fault: Fault::Stopped,
-        name: String::new(),
-        gap: 0.0,
-        message: "the assembly was stopped".to_string(),
-        hint: "assemble again".to_string(),
-        places: Vec::new(),
-    }
+    let message = "the assembly was stopped".to_string();
+    Failure { fault: Fault::Stopped, ..Failure::open("", 0.0, message, "assemble again") }
 }
 
 /// Failure because constraints are redundant at a position.
@@ -328,14 +303,8 @@ pub(super) fn redundant(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -
             if count == 1 { "s" } else { "" },
         )
     });
-    Failure {
-        fault: Fault::Redundant,
-        name: last.to_string(),
-        gap: 0.0,
-        message,
-        hint: format!("{freed}, or pass redundancy='allow'"),
-        places: Vec::new(),
-    }
+    let hint = format!("{freed}, or pass redundancy='allow'");
+    Failure { fault: Fault::Redundant, ..Failure::open(last, 0.0, message, hint) }
 }
 
 /// The text "free one of A along x, B along x" for each redundancy.

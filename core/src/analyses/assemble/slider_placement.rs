@@ -31,7 +31,7 @@ pub(super) struct Rail {
 }
 
 /// Smallest component of a direction along a coordinate for which the coordinate determines the position.
-const ACROSS: f64 = 1e-9;
+pub(super) const ACROSS: f64 = 1e-9;
 
 /// The slides of each body.
 pub(super) fn slides(model: &Model) -> Vec<Vec<Slide>> {

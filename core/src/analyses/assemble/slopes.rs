@@ -8,7 +8,7 @@ use super::target::{of_positions, of_rates, Target};
 use crate::analyses::State;
 use crate::elements::Followed;
 use crate::equations::kinematics::Motions;
-use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
+use crate::equations::sensitivity::{constants, Sensitivity, Slope, ABREAST};
 use crate::equations::{at, dense, mass, Workspace};
 use crate::expression::{Symbol, Tape};
 use crate::math::{Dual, Listed, Real};
@@ -56,7 +56,7 @@ pub fn slopes(
     let known = StartNumbers { model, request, parameters, set, t: request.t };
     let q = known.positions(&state.q)?;
     let v = known.rates(&q, &state.v)?;
-    let mut z: Vec<Slope> = state.z.iter().map(|z| Slope::constant(*z)).list();
+    let mut z = constants(&state.z);
     for (target, value) in request.set.iter().zip(set) {
         if let Target::State { place, .. } = target {
             z[*place] = *value;
@@ -112,8 +112,7 @@ impl StartNumbers<'_> {
 
     fn positions(&self, q: &[f64]) -> Result<Vec<Slope>, String> {
         let (model, mut over) = self.holding(of_positions(&self.request.set), Tape::of);
-        let constant: Vec<Slope> = q.iter().map(|q| Slope::constant(*q)).list();
-        let phi = over.open(Slope::constant(self.t), &constant);
+        let phi = over.open(Slope::constant(self.t), &constants(q));
         let mut workspace = Workspace::new(&model);
         if determines(&mut workspace, &model, self.t, q) {
             if let Some(found) = determined(&mut workspace, &model, q, &phi) {
@@ -127,7 +126,7 @@ impl StartNumbers<'_> {
 
     /// The rates that are approached. Those of bodies in `set` have the derivatives of their values.
     fn set_rates(&self, wanted: &[f64]) -> Vec<Slope> {
-        let mut wanted: Vec<Slope> = wanted.iter().map(|w| Slope::constant(*w)).list();
+        let mut wanted = constants(wanted);
         for (target, value) in self.request.set.iter().zip(self.set) {
             if let (true, Target::Coordinate(target)) = (target.is_rate(), target) {
                 wanted[target.place(self.model)] = *value;
@@ -140,7 +139,7 @@ impl StartNumbers<'_> {
         let t0 = self.t;
         let law = |of: Symbol| Tape::growing_by(of, t0);
         let (model, mut over) = self.holding(of_rates(&self.request.set), law);
-        let constant: Vec<Slope> = v.iter().map(|v| Slope::constant(*v)).list();
+        let constant = constants(v);
         let open = over.opening(Slope::constant(t0), q, &constant);
         let values: Vec<f64> = q.iter().map(|q| q.value).list();
         let motions = Motions::at(&model.layout, &values, v);
@@ -168,7 +167,7 @@ impl StartNumbers<'_> {
         }
         let mut sigma = vec![balance.iter().map(|x| -x).list()];
         solve_any_rank(&mut transposed, m, &mut sigma, DEPENDENT);
-        let sigma: Vec<Slope> = sigma[0].iter().map(|x| Slope::constant(*x)).list();
+        let sigma = constants(&sigma[0]);
         let off = constant.iter().zip(&wanted).map(|(v, w)| *v - *w).list();
         let mut residual = over.balance_of((Slope::constant(t0), q, &constant), &off, &sigma);
         residual.extend(open);
@@ -214,7 +213,7 @@ pub fn determined(
     x: &[f64],
     residual: &[Slope],
 ) -> Option<Vec<Slope>> {
-    let mut found: Vec<Slope> = x.iter().map(|x| Slope::constant(*x)).list();
+    let mut found = constants(x);
     for k in 0..ABREAST {
         let mut change = vec![0.0; x.len()];
         change.extend(residual.iter().map(|r| -r.slope[k]));

@@ -6,7 +6,7 @@
 //! for n to triangular form (Hermite), which shows whether there is a solution.
 
 use super::attempt::{close_from, given, internal, Closed, MOST_TRIES};
-use super::failure::{length, Failure, Fault};
+use super::failure::{length, Failure};
 use super::placements::Placements;
 use super::request::Request;
 use super::target::trimmed;
@@ -255,21 +255,16 @@ fn failure(model: &Model, meshes: &[Mesh], misfit: &Misfit) -> Failure {
     let part = misfit.phase.abs() / last.pitch.unwrap_or(1.0);
     let (by, name) = (length(misfit.phase.abs()), &item.name);
     let offset = trimmed(offset, 12);
-    Failure {
-        fault: Fault::Open,
-        name: name.clone(),
-        gap: misfit.phase.abs(),
-        message: format!(
-            "the teeth of {} do not meet: the phase of {name} is off by {by}, {} of a pitch",
-            listed(&names),
-            trimmed(part, 3)
-        ),
-        hint: format!(
-            "{}change the numbers of teeth or what is set, or write offset = {offset} in {name}",
-            planets(model, meshes, misfit)
-        ),
-        places: Vec::new(),
-    }
+    let message = format!(
+        "the teeth of {} do not meet: the phase of {name} is off by {by}, {} of a pitch",
+        listed(&names),
+        trimmed(part, 3)
+    );
+    let hint = format!(
+        "{}change the numbers of teeth or what is set, or write offset = {offset} in {name}",
+        planets(model, meshes, misfit)
+    );
+    Failure::open(name, misfit.phase.abs(), message, hint)
 }
 
 /// The angles between planets at which they mesh with the same wheels, as a text. Empty for other trains.

@@ -110,8 +110,6 @@ fn largest(rate: &[f64], scales: &[f64]) -> f64 {
 
 /// Φ_q q̇ + Φ_t.
 fn velocity_residual(model: &Model, t: f64, motions: &Motions) -> Vec<f64> {
-    let m = model.layout.n_rows;
-    let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
-    constraints::velocity_terms(model, motions, t, &mut phi, &mut rate, &mut gamma);
+    let [_, rate, _] = constraints::terms_at(model, motions, t);
     rate
 }

@@ -1,12 +1,8 @@
 //! Positions without duplicates, and without positions in which a freedom is left.
 
-use crate::analyses::kinematics::same;
+use crate::analyses::kinematics::{same, ALIKE};
 use crate::analyses::second_order::mobility;
 use crate::model::Model;
-
-/// Largest difference between two positions that count as equal. Near a dead point, Newton's method finds only half
-/// of the digits.
-const SAME: f64 = 1e-5;
 
 /// The positions found so far.
 pub(super) struct Positions<'a> {
@@ -46,7 +42,7 @@ impl<'a> Positions<'a> {
 
     fn knows(&self, q: &[f64]) -> bool {
         let mut known = self.positions.iter().chain(self.free.iter().map(|(free, _)| free));
-        known.any(|known| same(self.model, known, q, SAME))
+        known.any(|known| same(self.model, known, q, ALIKE))
     }
 
     /// Adds a position in which the mechanism has no degree of freedom. Returns whether it is new.

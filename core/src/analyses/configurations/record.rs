@@ -4,8 +4,8 @@ use super::options::Options;
 use super::{configurations, Failure};
 use crate::analyses::assemble::Request;
 use crate::analyses::record::{
-    Analysis, ErrorClass, Fact, NamedNumber, NumberList, Observer, Outcome, Record, StartState,
-    Subject, Unfinished,
+    Analysis, ErrorClass, Fact, NamedNumber, NumberList, Observer, Outcome, Record, RunResult,
+    StartState, Subject,
 };
 use crate::analyses::State;
 use crate::math::Listed;
@@ -17,12 +17,7 @@ impl Analysis for Options {
         NamedNumber::finding("complete", ""),
     ];
 
-    fn run(
-        &self,
-        subject: &Subject<'_>,
-        start: &StartState,
-        observer: Observer<'_>,
-    ) -> Result<Record, Box<Unfinished>> {
+    fn run(&self, subject: &Subject<'_>, start: &StartState, observer: Observer<'_>) -> RunResult {
         let (model, t) = (subject.released(start), start.state.t);
         let request = Request { set: self.set.clone(), t, ..Request::default() };
         let found = configurations(&model, &request, self.limit, observer.stop)?;

@@ -131,10 +131,7 @@ fn nearly_dependent(model: &Model, state: &State, known: &[Dependent]) -> Vec<De
 
 /// Φ_t at a position.
 fn rates_of_drivers(model: &Model, t: f64, q: &[f64]) -> Vec<f64> {
-    let m = model.layout.n_rows;
-    let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
-    let motions = Motions::at_rest(&model.layout, q);
-    constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
+    let [_, rate, _] = constraints::terms_at(model, &Motions::at_rest(&model.layout, q), t);
     rate
 }
 

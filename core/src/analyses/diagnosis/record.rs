@@ -2,7 +2,7 @@
 
 use super::{as_json, diagnose, Diagnosis, Options, Redundancy};
 use crate::analyses::record::{
-    Analysis, Fact, NamedNumber, Observer, Record, StartState, Subject, Unfinished,
+    Analysis, Fact, NamedNumber, Observer, Record, RunResult, StartState, Subject,
 };
 
 impl Analysis for Options {
@@ -18,12 +18,7 @@ impl Analysis for Options {
         NamedNumber::finding("undetermined", ""),
     ];
 
-    fn run(
-        &self,
-        subject: &Subject<'_>,
-        start: &StartState,
-        _: Observer<'_>,
-    ) -> Result<Record, Box<Unfinished>> {
+    fn run(&self, subject: &Subject<'_>, start: &StartState, _: Observer<'_>) -> RunResult {
         let found = diagnose(&subject.released(start), &start.state);
         Ok(Record::new(as_json(&found), start.clone())
             .facts(facts(&found))

@@ -9,7 +9,7 @@ use super::{begins, equilibrium, path};
 use crate::analyses::readings::find;
 use crate::analyses::record::{
     effort_unit, Analysis, ErrorClass, Fact, NamedNumber, NumberList, Observer, Outcome, Record,
-    StartState, Subject, Unfinished,
+    RunResult, StartState, Subject,
 };
 use crate::analyses::State;
 use crate::elements::Coordinate;
@@ -55,12 +55,7 @@ impl Analysis for Options {
         Ok(begins(&subject.released(start), &start.state)?)
     }
 
-    fn run(
-        &self,
-        subject: &Subject<'_>,
-        start: &StartState,
-        observer: Observer<'_>,
-    ) -> Result<Record, Box<Unfinished>> {
+    fn run(&self, subject: &Subject<'_>, start: &StartState, observer: Observer<'_>) -> RunResult {
         let (model, look) = (subject.released(start), observer.look);
         let Some(over) = &self.over else {
             let found = equilibrium(&model, &start.state, self, |step| look(step as f64))?;

@@ -22,6 +22,9 @@ const FARTHEST: f64 = 20.0;
 /// mechanism.
 const SAME: f64 = 1e-6;
 
+/// The same near a dead point, where Newton's method finds only half of the digits.
+pub(in crate::analyses) const ALIKE: f64 = 1e-5;
+
 /// Whether all bodies have the same position in `a` and `b`, up to whole turns.
 pub(in crate::analyses) fn same(model: &Model, a: &[f64], b: &[f64], tolerance: f64) -> bool {
     let size = size(model);

@@ -11,7 +11,7 @@ use std::fmt;
 
 /// Largest sine of the angle between two bodies in line, and largest cosine between a body and a slide at right
 /// angles.
-const IN_LINE: f64 = 1e-3;
+pub(super) const IN_LINE: f64 = 1e-3;
 /// Speed below which a point counts as at rest, relative to the largest rate of the mechanism.
 const AT_REST: f64 = 1e-4;
 /// Significant digits of a printed value.

@@ -1,6 +1,6 @@
 //! Reasons for which a motion ends early, in terms of the mechanism.
 
-use super::dead_point::Limit;
+use super::dead_point::{Limit, IN_LINE};
 use super::motion::Motion;
 use crate::analyses::mobility::Mobility;
 use crate::elements::{BodyId, Group};
@@ -8,9 +8,6 @@ use crate::equations::kinematics::Motions;
 use crate::math::{Listed, Vec2};
 use crate::model::Model;
 use std::fmt;
-
-/// Largest sine of the angle between two bodies in line.
-const IN_LINE: f64 = 1e-3;
 
 /// A motion that could not be followed to its end, with the part that was computed.
 #[derive(Clone, Debug)]

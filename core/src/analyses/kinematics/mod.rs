@@ -34,7 +34,7 @@ mod record;
 mod solution;
 mod works;
 
-pub(in crate::analyses) use circuit::{circuit, same};
+pub(in crate::analyses) use circuit::{circuit, same, ALIKE};
 pub(in crate::analyses) use continuation::Continuation;
 pub use dead_point::Limit;
 pub(in crate::analyses) use dead_point::{driven, in_line, written};

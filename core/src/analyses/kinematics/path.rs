@@ -4,7 +4,7 @@
 //! With y = (q, t), scaled, a point of the curve solves Φ(y) = 0 and τᵀ(y - y₀) = s with the tangent τ at y₀
 //! (Keller's pseudo-arclength continuation, in *Applications of Bifurcation Theory*, 1977).
 
-use super::solution::{Point, Solver};
+use super::solution::{Point, Solver, CLOSED};
 use crate::math::Listed;
 use crate::solve::solve_dense;
 
@@ -13,8 +13,7 @@ const ALONG: f64 = 0.95;
 /// Step below which the path crosses another branch, or passes it at a distance that rounding errors do not resolve,
 /// and the step with which it does so.
 const CROSSING: [f64; 2] = [1e-6, 1e-4];
-/// Scaled residual of a closed position, and largest number of iterations.
-const CLOSED: f64 = 1e-13;
+/// Largest number of iterations.
 const ITERATIONS: usize = 8;
 
 /// A point of the path.

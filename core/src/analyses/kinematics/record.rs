@@ -8,8 +8,8 @@ use super::over::{over, Over};
 use super::works::MotionRecorder;
 use crate::analyses::dynamics::{system_clock, Prepared, Run, Setting, Statistics};
 use crate::analyses::record::{
-    missing, Analysis, Driven, ErrorClass, Observer, Outcome, Record, StartState, Subject,
-    Unfinished, Variable,
+    missing, Analysis, Driven, ErrorClass, Observer, Outcome, Record, RunResult, StartState,
+    Subject, Unfinished, Variable,
 };
 use crate::analyses::{second_order, State};
 use crate::elements::Group;
@@ -29,12 +29,7 @@ impl Analysis for Options {
         self.time_problem(begin).map_or(Ok(self.t_end), |problem| Err(vec![problem]))
     }
 
-    fn run(
-        &self,
-        subject: &Subject<'_>,
-        start: &StartState,
-        observer: Observer<'_>,
-    ) -> Result<Record, Box<Unfinished>> {
+    fn run(&self, subject: &Subject<'_>, start: &StartState, observer: Observer<'_>) -> RunResult {
         PlannedMotion { options: self, subject, start, rests: false }.follow(observer)
     }
 }
@@ -46,12 +41,7 @@ impl Analysis for InverseOptions {
         Options::from(self.clone()).ends(model, begin)
     }
 
-    fn run(
-        &self,
-        subject: &Subject<'_>,
-        start: &StartState,
-        observer: Observer<'_>,
-    ) -> Result<Record, Box<Unfinished>> {
+    fn run(&self, subject: &Subject<'_>, start: &StartState, observer: Observer<'_>) -> RunResult {
         no_states(subject.model())?;
         let options = &Options::from(self.clone());
         let stop = observer.stop;
@@ -78,7 +68,7 @@ fn with_responses(
     subject: &Subject<'_>,
     start: &StartState,
     stop: &dyn Fn() -> bool,
-) -> Result<Record, Box<Unfinished>> {
+) -> RunResult {
     let run = record.motion.as_ref().expect("kinematics gives a motion");
     let model = record.driven.as_ref().map(|driven| Arc::clone(&driven.model));
     let prepared = Prepared::new(model.unwrap_or_else(|| subject.released(start)));
@@ -102,7 +92,7 @@ struct PlannedMotion<'a> {
 }
 
 impl PlannedMotion<'_> {
-    fn follow(&self, observer: Observer<'_>) -> Result<Record, Box<Unfinished>> {
+    fn follow(&self, observer: Observer<'_>) -> RunResult {
         let Observer { look, .. } = observer;
         let Self { options, subject, start, .. } = *self;
         match options.over.as_ref().zip(options.range) {
@@ -135,7 +125,7 @@ impl PlannedMotion<'_> {
         start: StartState,
         [first, last]: [f64; 2],
         look: &mut dyn FnMut(f64) -> Flow,
-    ) -> Result<Record, Box<Unfinished>> {
+    ) -> RunResult {
         let begin = match first == start.state.t {
             true => start,
             false => self.through(model, &start, &[first], look)?.end,
@@ -154,7 +144,7 @@ impl PlannedMotion<'_> {
         start: &StartState,
         times: &[f64],
         look: &mut dyn FnMut(f64) -> Flow,
-    ) -> Result<Record, Box<Unfinished>> {
+    ) -> RunResult {
         let began = system_clock();
         let own = second_order::acting(model, start.state.t, &start.state.q);
         let model = own.as_ref().unwrap_or(model);

@@ -8,7 +8,7 @@ use crate::model::{column_scales, row_scales, Model};
 use crate::solve::sign_of_determinant;
 
 /// Largest scaled residual of a closed position.
-const CLOSED: f64 = 1e-13;
+pub(super) const CLOSED: f64 = 1e-13;
 /// Largest residual that is accepted if Newton's method no longer reduces it.
 const ROUNDING: f64 = 1e-10;
 /// Largest number of Newton iterations; a good prediction needs two or three.

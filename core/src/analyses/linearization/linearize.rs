@@ -14,7 +14,7 @@ use super::freedoms::Freedoms;
 use super::names::{output, Input};
 use super::parameters::slopes_by_parameter;
 use super::response::Linear;
-use super::variation::{seeded, Slopes, StatePoint, Variation, D};
+use super::variation::{Slopes, StatePoint, Variation, D};
 use crate::analyses::dynamics::{Accelerations, Prepared, States};
 use crate::analyses::signals::{Seen, Signal};
 use crate::analyses::{second_order, State};
@@ -281,14 +281,7 @@ impl LinearEquations<'_> {
         f: impl FnOnce(&Model<D>, &Seen<'_, D>) -> R,
     ) -> R {
         let (model, at) = (variation.model(), self.at);
-        let pairs = [
-            (at.q, along.q),
-            (at.v, along.v),
-            (at.z, along.z),
-            (at.a, along.a),
-            (at.lam, along.lam),
-        ];
-        let [q, v, z, a, lam] = pairs.map(|(point, along)| seeded(point, along));
+        let [q, v, z, a, lam] = at.seeded(along);
         let motions = Motions::at(&model.layout, &q, &v);
         let t = D::lift(self.t);
         let works = [D::zero(); crate::model::WORKS];

@@ -5,8 +5,8 @@ use super::failure::{coordinate, Failure};
 use super::linearize::{begins, linearize};
 use super::options::Options;
 use crate::analyses::record::{
-    Analysis, ErrorClass, Fact, NamedNumber, NumberList, Observer, Outcome, Record, StartState,
-    Subject, Unfinished,
+    Analysis, ErrorClass, Fact, NamedNumber, NumberList, Observer, Outcome, Record, RunResult,
+    StartState, Subject,
 };
 use crate::analyses::{dynamics::friction_modes, State};
 use crate::elements::Mode;
@@ -41,12 +41,7 @@ impl Analysis for Options {
         Ok(begins(&self.model(subject, start)?.0, &start.state)?)
     }
 
-    fn run(
-        &self,
-        subject: &Subject<'_>,
-        start: &StartState,
-        _: Observer<'_>,
-    ) -> Result<Record, Box<Unfinished>> {
+    fn run(&self, subject: &Subject<'_>, start: &StartState, _: Observer<'_>) -> RunResult {
         let (model, locked) = self.model(subject, start)?;
         let found = linearize(&model, &start.state, &self.inputs, &self.outputs);
         let found = found.map_err(|failure| self.outcome(failure))?;

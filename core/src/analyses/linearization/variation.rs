@@ -28,6 +28,15 @@ pub(in crate::analyses) struct StatePoint<'a> {
     pub lam: &'a [f64],
 }
 
+impl StatePoint<'_> {
+    /// q, v, z, a and λ with the derivatives `along`.
+    pub fn seeded(self, along: StatePoint<'_>) -> [Vec<D>; 5] {
+        let Self { q, v, z, a, lam } = self;
+        let pairs = [(q, along.q), (v, along.v), (z, along.z), (a, along.a), (lam, along.lam)];
+        pairs.map(|(point, along)| seeded(point, along))
+    }
+}
+
 /// The derivatives along a direction.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::analyses) struct Slopes {
@@ -42,7 +51,7 @@ pub(in crate::analyses) struct Slopes {
 }
 
 /// `point` with the derivatives `along`.
-pub(in crate::analyses) fn seeded(point: &[f64], along: &[f64]) -> Vec<D> {
+fn seeded(point: &[f64], along: &[f64]) -> Vec<D> {
     let slopes = along.iter().copied().chain(std::iter::repeat(0.0));
     point
         .iter()
@@ -91,10 +100,8 @@ impl<'a> Variation<'a> {
         let Self { model, at, .. } = self;
         let [q, v] = [at.q, at.v].map(|x| seeded(x, &[]));
         let motions = Motions::at(&model.layout, &q, &v);
-        let rows = || vec![D::zero(); model.layout.n_rows];
-        let [mut phi, mut rates, mut gamma] = [(); 3].map(|()| rows());
         let t = D::lift(self.t);
-        constraints::velocity_terms(model, &motions, t, &mut phi, &mut rates, &mut gamma);
+        let [phi, rates, gamma] = constraints::terms_at(model, &motions, t);
         let mut jacobian = vec![D::zero(); model.layout.n_entries];
         constraints::jacobian(model, &motions, t, &mut jacobian);
         [phi, rates, gamma, jacobian].into_iter().flatten().any(|x| x.slope[0] != 0.0)
@@ -105,18 +112,10 @@ impl<'a> Variation<'a> {
         let Self { model, compiled, at, .. } = self;
         let layout = &model.layout;
         let t = D::lift(self.t);
-        let [q, v, z, a, lam] = [
-            (at.q, direction.q),
-            (at.v, direction.v),
-            (at.z, direction.z),
-            (at.a, direction.a),
-            (at.lam, direction.lam),
-        ]
-        .map(|(point, along)| seeded(point, along));
+        let [q, v, z, a, lam] = at.seeded(direction);
         let motions = Motions::at(layout, &q, &v);
         let zeros = |count: usize| vec![D::zero(); count];
-        let [mut phi, mut rates, mut gamma] = [(); 3].map(|()| zeros(layout.n_rows));
-        constraints::velocity_terms(model, &motions, t, &mut phi, &mut rates, &mut gamma);
+        let [_, rates, gamma] = constraints::terms_at(model, &motions, t);
         let mut jacobian = zeros(layout.n_entries);
         constraints::jacobian(model, &motions, t, &mut jacobian);
         let acting = Acting { z: &z, lam: Some(&lam), t };

@@ -2,7 +2,7 @@
 
 use super::numbers::NumberList;
 use super::outcome::{ErrorClass, Outcome};
-use super::result::{NamedNumber, Record, Unfinished};
+use super::result::{NamedNumber, Record, RunResult};
 use super::start_state::StartState;
 use crate::analyses::dynamics::{Act, Prepared};
 use crate::analyses::meshing::meshed;
@@ -54,13 +54,8 @@ pub trait Analysis: Declared {
     /// Runs the analysis.
     ///
     /// # Errors
-    /// [`Unfinished`], with the record so far if there is one.
-    fn run(
-        &self,
-        subject: &Subject<'_>,
-        start: &StartState,
-        observer: Observer<'_>,
-    ) -> Result<Record, Box<Unfinished>>;
+    /// [`Unfinished`](super::Unfinished), with the record so far if there is one.
+    fn run(&self, subject: &Subject<'_>, start: &StartState, observer: Observer<'_>) -> RunResult;
 }
 
 /// The mechanism that an analysis examines.

@@ -26,5 +26,7 @@ pub use fact::{effort_unit, Fact};
 pub use motion::{missing, with_start};
 pub use numbers::{parts, NumberList};
 pub use outcome::{ErrorClass, Outcome};
-pub use result::{rate_unit, Driven, NamedNumber, NumberTable, Record, Unfinished, Variable};
+pub use result::{
+    rate_unit, Driven, NamedNumber, NumberTable, Record, RunResult, Unfinished, Variable,
+};
 pub use start_state::StartState;

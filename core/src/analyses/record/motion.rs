@@ -2,7 +2,7 @@
 
 use super::analysis::{Analysis, EventActions, Observer, Subject};
 use super::outcome::{ErrorClass, Outcome};
-use super::result::{Record, Unfinished};
+use super::result::{Record, RunResult, Unfinished};
 use super::start_state::StartState;
 use crate::analyses::dynamics::{Options, Reason, Run};
 use crate::math::Listed;
@@ -30,12 +30,7 @@ impl Analysis for Options {
         !self.parameters.is_empty()
     }
 
-    fn run(
-        &self,
-        subject: &Subject<'_>,
-        start: &StartState,
-        observer: Observer<'_>,
-    ) -> Result<Record, Box<Unfinished>> {
+    fn run(&self, subject: &Subject<'_>, start: &StartState, observer: Observer<'_>) -> RunResult {
         if let Some(problem) = self.backward(start.state.t, &["t_end"]) {
             return Err(vec![problem].into());
         }

@@ -191,6 +191,9 @@ pub struct Unfinished {
     pub record: Option<Record>,
 }
 
+/// The result of [`Analysis::run`](super::Analysis::run).
+pub type RunResult = Result<Record, Box<Unfinished>>;
+
 impl<T: Into<Outcome>> From<T> for Box<Unfinished> {
     fn from(outcome: T) -> Self {
         Self::new(Unfinished { outcome: outcome.into(), record: None })

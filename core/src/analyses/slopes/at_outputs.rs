@@ -1,7 +1,8 @@
 //! Extreme values at the outputs, with derivatives. Quantities of a whole run have no other extreme values.
 
 use super::extremes::alike;
-use super::statistics::{Found, SlopeRows, RIVAL};
+use super::statistics::{Found, SlopeRows};
+use crate::analyses::statistics::RIVAL;
 use crate::analyses::sweep::Statistic;
 use crate::math::Listed;
 

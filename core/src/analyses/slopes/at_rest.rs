@@ -7,10 +7,10 @@ use crate::analyses::measures::Measure;
 use crate::analyses::signals::Seen;
 use crate::analyses::State;
 use crate::equations::kinematics::Motions;
-use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
+use crate::equations::sensitivity::{constants, variables_from, Sensitivity, Slope, ABREAST};
 use crate::equations::{dense, reactive};
 use crate::expression::{Symbol, Tape};
-use crate::math::{indexed, Complex, Dual, Field, Listed, Real};
+use crate::math::{indexed, Complex, Field, Listed, Real};
 use crate::model::{column_scales, row_scales, Blueprint, ConstraintItem, Model};
 use crate::solve::null_space;
 use std::sync::Arc;
@@ -84,8 +84,7 @@ impl StaticEquations {
         let base = Model::new(&blueprint, &values);
         let mut over = Sensitivity::new(Model::new(&blueprint, &all));
         let t = Slope::constant(state.t);
-        let constant = |x: &[f64]| -> Vec<Slope> { x.iter().map(|x| Slope::constant(*x)).list() };
-        let (q, lam) = (constant(&state.q), constant(lam));
+        let (q, lam) = (constants(&state.q), constants(lam));
         if lam.len() != base.layout.n_rows {
             return Err("its multipliers are not known".to_string());
         }
@@ -218,11 +217,7 @@ fn matrix(model: &Model, state: &State, lam: &[Slope]) -> Vec<f64> {
     let mut over = Sensitivity::new(model.lift());
     let t = Slope::constant(state.t);
     for first in (0..n).step_by(ABREAST) {
-        let seed = |(k, q): (usize, &f64)| match k.checked_sub(first) {
-            Some(place) if place < ABREAST => Dual::variable(*q, place),
-            _ => Slope::constant(*q),
-        };
-        let q: Vec<Slope> = state.q.iter().enumerate().map(seed).list();
+        let q = variables_from(first, &state.q);
         for (row, r) in over.statics(t, &q, lam).iter().enumerate() {
             for (place, slope) in r.slope.iter().enumerate().take(n - first) {
                 matrix[row * (n + m) + first + place] = *slope;

@@ -3,10 +3,10 @@
 use super::gradient::{OF_BALANCE, OF_RUN};
 use super::starts::with_interpolant;
 use super::statistics::SlopeRows;
+use super::variant::ReadyVariant;
 use crate::analyses::measures::Measure;
 use crate::analyses::record::Record;
-use crate::analyses::sweep::{Outcome, PreparedModel, Sweep, VariantRow};
-use std::sync::Arc;
+use crate::analyses::sweep::{Outcome, Sweep, VariantRow};
 
 /// Values and derivatives: a row of all measures for each time, and for each measure in it a row of all variables.
 pub type AtTimes = (Vec<f64>, Vec<f64>);
@@ -23,9 +23,9 @@ impl Sweep {
         row: &VariantRow,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<Result<AtTimes, String>, Outcome> {
-        let ready = self.ready(row, stop)?;
-        let record =
-            self.run(&ready, &with_interpolant(&ready.analysis), stop).map_err(Outcome::from)?;
+        let ready = &self.ready(row, stop)?;
+        let variant = ReadyVariant { sweep: self, ready, row, stop };
+        let record = variant.run(&with_interpolant(&ready.analysis))?;
         let Record { motion: Some(run), driven, .. } = record else {
             return Err(Outcome::Single);
         };
@@ -36,9 +36,7 @@ impl Sweep {
             let text = format!("the motion has no value at {t}: it goes from {first} to {last}");
             return Err(Outcome::Failed(text));
         }
-        let rests = driven.as_ref().is_some_and(|driven| driven.variable.rests);
-        let whole = driven.map(|driven| Arc::new(PreparedModel::new(driven.model)));
-        let whole = whole.as_ref().unwrap_or(&ready.prepared);
+        let (whole, rests) = ready.whole(driven);
         let read = |text: &String| Measure::read(whole.model(), text);
         let measures: Result<Vec<Measure>, _> = self.measures.iter().map(read).collect();
         let measures = measures.map_err(|problem| Outcome::Failed(problem.to_string()))?;
@@ -47,7 +45,7 @@ impl Sweep {
         }
         let count = measures.len();
         let wanted = (measures, times.to_vec());
-        let rows = self.rows((whole, &run, rests), &ready, wanted, row, stop);
+        let rows = variant.rows((&whole, &run, rests), wanted);
         Ok(rows.and_then(|rows| match gathered(&rows, times, count)? {
             (values, _) if values.iter().any(|x| x.is_nan()) => Err(OF_RUN.to_string()),
             found => Ok(found),

@@ -3,8 +3,8 @@
 use crate::analyses::measures::Measure;
 use crate::analyses::signals::Seen;
 use crate::equations::kinematics::Motions;
-use crate::equations::sensitivity::{Slope, ABREAST};
-use crate::math::{Dual, Listed, Real};
+use crate::equations::sensitivity::{variables_from, Slope, ABREAST};
+use crate::math::{Listed, Real};
 use crate::model::Model;
 
 /// The derivatives of measures by t, q, v, z and the parameters at x = (t, q, v, z): a row for each measure.
@@ -14,11 +14,7 @@ pub fn by_state(model: &Model, measures: &[Measure], x: &[f64]) -> Vec<f64> {
     let mut found = vec![0.0; measures.len() * all.len()];
     let constant = model.lift();
     for first in (0..all.len()).step_by(ABREAST) {
-        let seed = |(k, x): (usize, &f64)| match k.checked_sub(first) {
-            Some(place) if place < ABREAST => Dual::variable(*x, place),
-            _ => Slope::constant(*x),
-        };
-        let seeds: Vec<Slope> = all.iter().enumerate().map(seed).list();
+        let seeds = variables_from(first, &all);
         let own =
             (first + ABREAST > x.len()).then(|| Model::new(&model.blueprint, &seeds[x.len()..]));
         let values = at(own.as_ref().unwrap_or(&constant), measures, &seeds[..x.len()]);

@@ -2,9 +2,9 @@
 
 use crate::analyses::assemble::{determined, determines, implicit};
 use crate::equations::kinematics::Motions;
-use crate::equations::sensitivity::{Sensitivity, Slope};
+use crate::equations::sensitivity::{constants, Sensitivity, Slope};
 use crate::equations::{dense, Workspace};
-use crate::math::{Listed, Real};
+use crate::math::Real;
 use crate::model::Model;
 
 /// The state at a time with its derivatives, in which the drivers determine all coordinates.
@@ -17,16 +17,15 @@ pub(super) fn state(
     t: f64,
     [q, v, z]: [&[f64]; 3],
 ) -> Result<Vec<Slope>, String> {
-    let constant = |x: &[f64]| -> Vec<Slope> { x.iter().map(|x| Slope::constant(*x)).list() };
     let (at, clear) = (Slope::constant(t), determines(workspace, model, t, q));
     let general = || dense::jacobian(model, &Motions::at(&model.layout, q, v), t);
     let mut follow = |x: &[f64], residual: Vec<Slope>| {
         let found = if clear { determined(workspace, model, x, &residual) } else { None };
         found.map_or_else(|| implicit(general(), x, &residual), Ok)
     };
-    let of_q = follow(q, block.open(at, &constant(q)))?;
-    let of_v = follow(v, block.opening(at, &of_q, &constant(v)))?;
-    let mut state = [of_q, of_v, constant(z)].concat();
+    let of_q = follow(q, block.open(at, &constants(q)))?;
+    let of_v = follow(v, block.opening(at, &of_q, &constants(v)))?;
+    let mut state = [of_q, of_v, constants(z)].concat();
     state.resize(model.layout.n_y(), Slope::constant(f64::NAN));
     Ok(state)
 }

@@ -3,48 +3,40 @@
 use super::at_rest::{AtRest, RestPoint};
 use super::statistics::Found;
 use super::variables::parameters;
+use super::variant::ReadyVariant;
 use crate::analyses::assemble::{rate_slopes, state_until, Request, StartSlopes};
 use crate::analyses::equilibrium::Options;
 use crate::analyses::measures::Measure;
 use crate::analyses::record::{parts, Record};
-use crate::analyses::sweep::{Ready, Sweep, VariantRow, Wanted};
+use crate::analyses::sweep::Wanted;
 use crate::analyses::State;
-use crate::equations::sensitivity::Slope;
-use crate::math::{Listed, Real};
+use crate::equations::sensitivity::constants;
+use crate::math::Listed;
 use crate::model::{Model, Value};
+use std::sync::Arc;
 
 /// The numbers that count, say yes or no, or belong to the search.
 const FLAGS: [&str; 5] = ["stable", "steps", "relaxed", "complete", "residual"];
 
 /// What the numbers of an equilibrium, or of a path of equilibria, follow from.
 struct Rests<'a> {
-    sweep: &'a Sweep,
-    ready: &'a Ready,
+    variant: ReadyVariant<'a>,
     options: &'a Options,
     record: &'a Record,
-    model: &'a Model,
+    model: Arc<Model>,
     /// The variables and the derivatives of the start, in blocks.
     blocks: Vec<(Vec<String>, StartSlopes)>,
 }
 
-impl Sweep {
+impl ReadyVariant<'_> {
     /// The derivatives of the numbers of an equilibrium, or of a path of equilibria.
-    pub(super) fn of_equilibrium(
-        &self,
-        ready: &Ready,
-        options: &Options,
-        record: &Record,
-        row: &VariantRow,
-        stop: &(dyn Fn() -> bool + Sync),
-    ) -> Vec<Found> {
-        let blocks = match self.before_rest(ready, options, row, stop) {
-            Ok(blocks) => blocks,
-            Err(reason) => return vec![Err(reason); self.wanted.len()],
+    pub fn of_equilibrium(&self, options: &Options, record: &Record) -> Vec<Found> {
+        let rests = match self.rests(options, record) {
+            Ok(rests) => rests,
+            Err(reason) => return vec![Err(reason); self.sweep.wanted.len()],
         };
-        let model = &*self.subject(ready).released(&ready.start);
-        let rests = Rests { sweep: self, ready, options, record, model, blocks };
         let mut known = Vec::new();
-        let each = self.wanted.iter().map(|one| match one {
+        let each = self.sweep.wanted.iter().map(|one| match one {
             Wanted::Number(text) => rests.number(text, &mut known),
             Wanted::Statistic(..) => Err("an equilibrium has no statistics".to_string()),
         });
@@ -53,22 +45,20 @@ impl Sweep {
 
     /// The derivatives of an equilibrium at which another analysis starts, in blocks of variables. Where drivers move,
     /// the rates at the start are those nearest to rest.
-    pub(super) fn rest_starts(
+    pub fn rest_starts(
         &self,
-        (ready, options, record): (&Ready, &Options, &Record),
-        row: &VariantRow,
-        stop: &(dyn Fn() -> bool + Sync),
+        options: &Options,
+        record: &Record,
     ) -> Result<Vec<StartSlopes>, String> {
-        let blocks = self.before_rest(ready, options, row, stop)?;
-        let model = &*self.subject(ready).released(&ready.start);
-        let rests = Rests { sweep: self, ready, options, record, model, blocks };
+        let rests = self.rests(options, record)?;
+        let model = &*rests.model;
         let found = rests.at(0)?.into_iter().map(|(rest, _)| rest.start());
         if !model.driven {
             return Ok(found.list());
         }
         let (t, state) = (record.end.state.t, Some(record.end.state.clone()));
         let request = Request { state, t, ..Request::default() };
-        let moving = state_until(model, &request, stop).map_err(|failure| failure.message)?;
+        let moving = state_until(model, &request, self.stop).map_err(|failure| failure.message)?;
         let with_rates = |([q, _, z], (names, _)): (StartSlopes, &(Vec<String>, _))| {
             let numbers = parameters(model, names, &[]).ok_or("its parameters cannot be read")?;
             let v = rate_slopes(model, &request, &numbers, (&q, &moving.v))?;
@@ -77,22 +67,17 @@ impl Sweep {
         found.zip(&rests.blocks).map(with_rates).collect()
     }
 
-    /// The variables in blocks, with the derivatives of the start as far as an equilibrium depends on it: by the
-    /// quantities that are held.
-    fn before_rest(
-        &self,
-        ready: &Ready,
-        options: &Options,
-        row: &VariantRow,
-        stop: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Vec<(Vec<String>, StartSlopes)>, String> {
-        let names = Self::names(row).into_iter();
-        let State { q, v, z, .. } = &ready.start.state;
-        let fixed = || [q, v, z].map(|x| x.iter().map(|x| Slope::constant(*x)).list());
-        Ok(match options.hold.is_empty() && !ready.after {
+    /// The equilibria, with the derivatives of the start as far as they depend on it: by the quantities that are held.
+    fn rests<'b>(&'b self, options: &'b Options, record: &'b Record) -> Result<Rests<'b>, String> {
+        let (names, start) = (self.names().into_iter(), &self.ready.start);
+        let State { q, v, z, .. } = &start.state;
+        let fixed = || [q, v, z].map(|x| constants(x));
+        let blocks = match options.hold.is_empty() && !self.ready.after {
             true => names.map(|names| (names, fixed())).list(),
-            false => names.zip(self.starts(ready, row, stop)?.in_time()?).list(),
-        })
+            false => names.zip(self.starts()?.in_time()?).list(),
+        };
+        let model = self.sweep.subject(self.ready).released(start);
+        Ok(Rests { variant: *self, options, record, model, blocks })
     }
 }
 
@@ -121,7 +106,7 @@ impl Rests<'_> {
             "folds" => self.fold(fold(place).ok_or("there is no such fold")?),
             "branches" => Err("it has no bound: other paths cross there".to_string()),
             "values" if (0..folds.len()).any(|k| fold(k) == Some(place)) => self.fold(place),
-            "values" if given => Ok(vec![0.0; self.variables()]),
+            "values" if given => Ok(vec![0.0; self.variant.count()]),
             _ if !given => {
                 Err("the path chooses this point; its ends have derivatives".to_string())
             }
@@ -145,7 +130,7 @@ impl Rests<'_> {
                 Some((_, Some(holder))) => block.effort(holder),
                 Some((name, None)) => block.effort_of(name).ok_or("there is no such driver")?,
                 None => {
-                    let declared = &self.sweep.definition.measures;
+                    let declared = &self.variant.sweep.definition.measures;
                     let declared = declared.iter().find(|(of, _)| of == text);
                     let text = match declared {
                         Some((_, Value::Text(text))) => text,
@@ -158,10 +143,6 @@ impl Rests<'_> {
             slopes.extend(&found.slope[..*count]);
         }
         Ok(slopes)
-    }
-
-    fn variables(&self) -> usize {
-        self.blocks.iter().map(|(names, _)| names.len()).sum()
     }
 
     /// A finding that is a list.
@@ -202,7 +183,7 @@ impl Rests<'_> {
         point: usize,
         f: impl FnOnce(&RestPoint<'_>) -> Result<R, String>,
     ) -> Result<R, String> {
-        let Self { options, model: before, ready, .. } = *self;
+        let (options, before) = (self.options, &*self.model);
         let of = &self.list("points")[point];
         let numbers = |name: &str| -> Option<Vec<f64>> {
             of[name].as_array()?.iter().map(serde_json::Value::as_f64).collect()
@@ -213,7 +194,7 @@ impl Rests<'_> {
             Some((numbers("q")?, numbers("z")?, numbers("lam")?.into_iter().chain(holders).list()))
         };
         let (q, z, lam) = read().ok_or("its multipliers are not known")?;
-        let (v, start) = (vec![0.0; q.len()], &ready.start.state);
+        let (v, start) = (vec![0.0; q.len()], &self.variant.ready.start.state);
         let state = &State { t: start.t, q, v, z };
         let value = self.list("values").get(point).and_then(serde_json::Value::as_f64);
         let change = options.over.clone().zip(value);

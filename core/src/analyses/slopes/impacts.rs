@@ -8,7 +8,7 @@ use crate::analyses::dynamics::Struck;
 use crate::elements::{Behaviour, Mode};
 use crate::equations::energy;
 use crate::equations::kinematics::Motions;
-use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
+use crate::equations::sensitivity::{constants, Sensitivity, Slope, ABREAST};
 use crate::equations::Workspace;
 use crate::math::{Listed, Real};
 use crate::model::{ForceMode, Model};
@@ -67,8 +67,8 @@ pub(super) fn strike(
             after.iter_mut().zip(&jump).for_each(|(v, jump)| *v += jump);
             found = impulses;
         }
-        let mut new: Vec<Slope> = after.iter().map(|v| Slope::constant(*v)).list();
-        let mut pushes: Vec<Slope> = found.iter().map(|x| Slope::constant(*x)).list();
+        let mut new = constants(&after);
+        let mut pushes = constants(&found);
         let jump = new.iter().zip(&old).map(|(new, old)| *new - *old).list();
         let opening = block.opening(at, &of_q, &new);
         rates.iter_mut().zip(&factors).for_each(|(rate, e)| *rate = *rate * *e);

@@ -1,47 +1,40 @@
 //! The limits of a motion with their derivatives.
 
-use super::numbers::NumberSlopes;
+use super::gradient::{NumberSlopes, COUNTS};
+use super::statistics::Found;
 use super::turning::Turning;
+use super::variant::ReadyVariant;
 use crate::analyses::assemble::implicit;
 use crate::analyses::measures::Measure;
 use crate::analyses::record::{Driven, Record};
 use crate::analyses::rigid::RigidContacts;
 use crate::analyses::second_order;
 use crate::analyses::signals::Seen;
-use crate::analyses::sweep::{Ready, Sweep, VariantRow, Wanted};
+use crate::analyses::sweep::Wanted;
 use crate::analyses::State;
 use crate::elements::QuantityKind;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
-use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
+use crate::equations::sensitivity::{constants, variables_from, Sensitivity, Slope, ABREAST};
 use crate::equations::{constraints, dense};
-use crate::math::{Dual, Listed, Real};
+use crate::math::{Listed, Real};
 use crate::model::{size, Model};
 
-/// The derivatives of a number by all variables.
-type Slopes = Result<Vec<f64>, String>;
-
-impl Sweep {
+impl ReadyVariant<'_> {
     /// The derivatives of the numbers of limits.
-    pub(super) fn of_limits(
-        &self,
-        ready: &Ready,
-        record: &Record,
-        row: &VariantRow,
-        stop: &(dyn Fn() -> bool + Sync),
-    ) -> NumberSlopes {
-        let count = row.0.len() + row.1.len();
-        let limit = |name: &str| self.of_limit(record, name, row);
+    pub fn of_limits(&self, record: &Record) -> NumberSlopes {
+        let count = self.count();
+        let limit = |name: &str| self.of_limit(record, name);
         let number = |text: &str| match text {
             "lower" | "upper" => limit(text),
             "span" => {
                 let (lower, upper) = (limit("lower")?, limit("upper")?);
                 Ok(upper.iter().zip(&lower).map(|(upper, lower)| upper - lower).list())
             }
-            "start" => self.of_start(ready, record, row, stop),
-            _ => Err("it counts, or says yes or no, and does not change gradually".to_string()),
+            "start" => self.of_start(record),
+            _ => Err(COUNTS.to_string()),
         };
-        let each = self.wanted.iter().map(|one| match one {
+        let each = self.sweep.wanted.iter().map(|one| match one {
             Wanted::Number(text) => number(text.trim()),
             Wanted::Statistic(..) => Err("limits have no statistics".to_string()),
         });
@@ -53,7 +46,7 @@ impl Sweep {
     }
 
     /// The derivatives of the lower or the upper limit.
-    fn of_limit(&self, record: &Record, name: &str, row: &VariantRow) -> Slopes {
+    fn of_limit(&self, record: &Record, name: &str) -> Found {
         let of_side = format!("{name} limit");
         let found = record.positions.iter().find(|(fact, _)| fact.name == of_side);
         let Some((_, State { t, q, .. })) = found else {
@@ -78,7 +71,7 @@ impl Sweep {
             _ => return Err("several stops are reached there".to_string()),
         };
         let mut slopes = Vec::new();
-        for mut over in Self::blocks(model, row)? {
+        for mut over in self.blocks(model)? {
             slopes.extend(match &turning {
                 Some(turning) => turning.slopes(&mut over),
                 None => at_stop(model, contacts.forces()[0], (*t, q), &mut over)?,
@@ -88,23 +81,18 @@ impl Sweep {
     }
 
     /// The derivatives of the driven value at the start.
-    fn of_start(
-        &self,
-        ready: &Ready,
-        record: &Record,
-        row: &VariantRow,
-        stop: &(dyn Fn() -> bool + Sync),
-    ) -> Slopes {
+    fn of_start(&self, record: &Record) -> Found {
         let Driven { variable, .. } = record.driven.as_ref().ok_or("its mechanism is not known")?;
-        let model = self.subject(ready).released(&ready.start);
+        let start = &self.ready.start;
+        let model = self.sweep.subject(self.ready).released(start);
         let measure = Measure::read(&model, &variable.name);
         let measure = measure.map_err(|_| "kempe has no derivatives of this number")?;
         let mut slopes = Vec::new();
-        let starts = self.starts(ready, row, stop)?.in_time()?;
-        let blocks = Self::blocks(&model, row)?.into_iter().zip(starts);
+        let starts = self.starts()?.in_time()?;
+        let blocks = self.blocks(&model)?.into_iter().zip(starts);
         for (mut over, [q, v, z]) in blocks {
             over.place(&q, &v, &[]);
-            let (t, solved) = (Slope::constant(ready.start.state.t), [&over.a[..], &over.lam]);
+            let (t, solved) = (Slope::constant(start.state.t), [&over.a[..], &over.lam]);
             let (state, motions) = ([&q[..], &v, &z], &over.motions);
             let seen = Seen { t, state, works: &[], motions, solved, so_far: None };
             slopes.extend(measure.value_at(&over.model, &seen).slope);
@@ -136,15 +124,11 @@ fn at_stop(
     }
     let (lifted, unknowns) = (model.lift::<Slope>(), [q, &[t]].concat());
     for first in (0..=n).step_by(ABREAST) {
-        let seed = |(k, x): (usize, &f64)| match k.checked_sub(first) {
-            Some(place) if place < ABREAST => Dual::variable(*x, place),
-            _ => Slope::constant(*x),
-        };
-        let at: Vec<Slope> = unknowns.iter().enumerate().map(seed).list();
+        let at = variables_from(first, &unknowns);
         let found = gap(&lifted, at[n], &at[..n]);
         matrix.extend(found.slope.iter().take(n + 1 - first));
     }
-    let q: Vec<Slope> = q.iter().map(|q| Slope::constant(*q)).list();
+    let q = constants(q);
     let mut residual = over.open(Slope::constant(t), &q);
     residual.push(gap(&over.model, Slope::constant(t), &q));
     Ok(implicit(matrix, &unknowns, &residual)?[n].slope)

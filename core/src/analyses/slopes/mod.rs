@@ -24,7 +24,7 @@
 //! | `statistics` | statistics with derivatives |
 //! | `extremes` | extreme values with derivatives |
 //! | `integrals` | integrals, means and root mean squares with derivatives |
-//! | `numbers` | the numbers of results that are not motions |
+//! | `variant` | a variant of a sweep with its variables |
 //! | `gradient` | all numbers and all variables of a request |
 //! | `at_outputs` | extreme values at the outputs |
 //! | `at_times` | measures and all variables of a request at given times |
@@ -43,7 +43,6 @@ mod integrals;
 mod limits;
 mod modes;
 mod motion;
-mod numbers;
 mod ode;
 mod reader;
 mod run_ends;
@@ -53,6 +52,7 @@ mod statistics;
 mod triggers;
 mod turning;
 mod variables;
+mod variant;
 
 pub use at_times::AtTimes;
 pub use by_state::by_state;

@@ -1,12 +1,14 @@
 //! The numbers of modes with their derivatives.
 
+use super::gradient::NumberSlopes;
 use super::spectrum::{ModeEquations, Moved, Vector};
+use super::variant::ReadyVariant;
 use crate::analyses::linearization::Options;
 use crate::analyses::measures::Measure;
 use crate::analyses::record::{parts, Record, StartState};
 use crate::analyses::second_order;
 use crate::analyses::signals::Seen;
-use crate::analyses::sweep::{Ready, Sweep, VariantRow, Wanted};
+use crate::analyses::sweep::Wanted;
 use crate::analyses::AnyAnalysis;
 use crate::elements::Group;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
@@ -45,30 +47,24 @@ struct ModeSlopes<'a> {
     moved: Vec<Moved>,
 }
 
-impl Sweep {
-    /// The derivatives of the numbers of modes, for each number by each variable.
-    pub(super) fn of_modes(
-        &self,
-        ready: &Ready,
-        options: &Options,
-        row: &VariantRow,
-        stop: &(dyn Fn() -> bool + Sync),
-    ) -> Vec<Vec<Result<f64, String>>> {
-        let count = row.0.len() + row.1.len();
+impl ReadyVariant<'_> {
+    /// The derivatives of the numbers of modes.
+    pub fn of_modes(&self, options: &Options) -> NumberSlopes {
+        let (count, wanted) = (self.count(), &self.sweep.wanted);
         let none = |reason: String| vec![Err(reason); count];
-        let all = |reason: String| vec![none(reason); self.wanted.len()];
-        let model = match options.model(&self.subject(ready), &ready.start) {
+        let all = |reason: String| vec![none(reason); wanted.len()];
+        let model = match options.model(&self.sweep.subject(self.ready), &self.ready.start) {
             Ok((model, _)) => model,
             Err(failure) => return all(failure.to_string()),
         };
         // a mode that is left out may have the same eigenvalue
         let whole = AnyAnalysis::Modes(Options { n: None, ..options.clone() });
-        let record = match self.run(ready, &whole, stop) {
+        let record = match self.run(&whole) {
             Ok(record) => record,
             Err(failure) => return all(failure.message),
         };
-        let found = self.mode_slopes(ready, (&model, &record), row, stop);
-        let each = self.wanted.iter().map(|one| match (one, &found) {
+        let found = self.mode_slopes(&model, &record);
+        let each = wanted.iter().map(|one| match (one, &found) {
             (Wanted::Number(text), Ok(found)) => found.number(options, text, count),
             (Wanted::Statistic(..), _) => none("modes have no statistics".to_string()),
             (_, Err(reason)) => none(reason.clone()),
@@ -76,13 +72,11 @@ impl Sweep {
         each.list()
     }
 
-    fn mode_slopes<'a>(
+    fn mode_slopes<'m>(
         &self,
-        ready: &Ready,
-        (model, record): (&'a Arc<Model>, &'a Record),
-        row: &VariantRow,
-        stop: &(dyn Fn() -> bool + Sync),
-    ) -> Result<ModeSlopes<'a>, String> {
+        model: &'m Arc<Model>,
+        record: &'m Record,
+    ) -> Result<ModeSlopes<'m>, String> {
         let StartState { state, .. } = &record.end;
         if let Some(reason) = refusal(model, &state.v) {
             return Err(reason.to_string());
@@ -93,10 +87,8 @@ impl Sweep {
         let lost = || "the equations of motion have no unique solution there".to_string();
         let mut workspace = Workspace::new(model);
         workspace.react(model, state.t, [&state.q, &state.v, &[]]).map_err(|_| lost())?;
-        let sizes = row.0.iter().chain(&row.1);
-        let sizes = sizes.map(|(_, x)| if *x == 0.0 { 1.0 } else { x.abs() }).list();
-        let blocks = Self::blocks(model, row)?.into_iter();
-        let blocks = blocks.zip(self.starts(ready, row, stop)?.in_time()?);
+        let blocks = self.blocks(model)?.into_iter().zip(self.starts()?.in_time()?);
+        let sizes = self.sizes();
         let moved = blocks.zip(sizes.chunks(ABREAST)).map(|((mut over, [q, v, _]), sizes)| {
             let t = Slope::constant(state.t);
             over.respond((model, &mut workspace), t, [&q, &v, &[]]).map_err(|_| lost())?;

@@ -15,7 +15,7 @@ use crate::analyses::linearization::{LeastNorm, StatePoint, Variation};
 use crate::equations::kinematics::Motions;
 use crate::equations::mass;
 use crate::equations::second::{of_forces, Direction};
-use crate::equations::sensitivity::{Sensitivity, Slope};
+use crate::equations::sensitivity::{constants, Sensitivity, Slope};
 use crate::math::{Complex, Field, Jet, Listed, Real};
 use crate::model::{column_scales, Model};
 use std::sync::Arc;
@@ -229,7 +229,7 @@ impl Moved {
         let Self { over, state: [at_q, at_v], .. } = self;
         let [mu, nu, kappa, w] = l;
         let bent = |u: &[Slope], x: &[f64]| over.curvature((t, at_q), u, x);
-        let constant = w.iter().map(|w| Slope::constant(*w)).list();
+        let constant = constants(w);
         let mut total = Slope::zero();
         let mut add = |rows: Vec<Slope>, factors: &[f64], times: f64| {
             for (row, factor) in rows.iter().zip(factors) {

@@ -1,7 +1,7 @@
 //! Statistics of measures with derivatives.
 
 use super::reader::{Corner, Reader, SlopeRow};
-use crate::analyses::statistics::{Extreme, Integrals, BAND};
+use crate::analyses::statistics::{Extreme, Integrals, BAND, RIVAL};
 use crate::analyses::sweep::{Series, Statistic};
 use crate::math::{Listed, Ordered};
 
@@ -9,8 +9,6 @@ use crate::math::{Listed, Ordered};
 const BESIDE: f64 = 1.0 / 32.0;
 /// Accuracy of the time of an extreme value, in steps of the run.
 const SEARCHED: f64 = 1e-4;
-/// Values that differ by less than this fraction are equally large.
-pub(super) const RIVAL: f64 = 1e-9;
 
 /// The derivatives of a number by each variable, or the reason for which there are none.
 pub(super) type Found = Result<Vec<f64>, String>;

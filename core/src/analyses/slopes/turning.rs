@@ -4,7 +4,7 @@
 //! not count. The position is first improved by Newton's method: along the path, t″ = -yᵀ Φ_qq[q′, q′] / yᵀ Φ_t.
 
 use crate::equations::kinematics::Motions;
-use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
+use crate::equations::sensitivity::{constants, Sensitivity, Slope, ABREAST};
 use crate::equations::{constraints, dense};
 use crate::math::{Complex, Field, Listed, Real};
 use crate::model::{column_scales, row_scales, Model};
@@ -68,7 +68,7 @@ impl Turning {
 
     /// The derivatives of the limit by the variables of a block.
     pub fn slopes(&self, over: &mut Sensitivity) -> [f64; ABREAST] {
-        let q: Vec<Slope> = self.q.iter().map(|q| Slope::constant(*q)).list();
+        let q = constants(&self.q);
         let phi = over.open(Slope::constant(self.t), &q);
         let mut slopes = [0.0; ABREAST];
         for (k, slope) in slopes.iter_mut().enumerate() {
@@ -96,9 +96,7 @@ fn extended(model: &Model, unit: f64, t: f64, q: &[f64]) -> Vec<f64> {
 fn curvature(model: &Model, t: f64, q: &[f64], v: &[f64]) -> Vec<f64> {
     let gamma = |sign: f64| {
         let v: Vec<f64> = v.iter().map(|v| sign * v).list();
-        let motions = Motions::at(&model.layout, q, &v);
-        let [mut phi, mut rate, mut gamma] = [(); 3].map(|()| vec![0.0; model.layout.n_rows]);
-        constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
+        let [_, _, gamma] = constraints::terms_at(model, &Motions::at(&model.layout, q, &v), t);
         gamma
     };
     let [forth, back, rest] = [1.0, -1.0, 0.0].map(gamma);

@@ -4,6 +4,8 @@ use super::{largest, Maxima};
 
 /// Values that differ by less than this fraction of the largest magnitude count as equal.
 const SAME: f64 = 1e-12;
+/// Extreme values that differ by less than this fraction are equally large.
+pub const RIVAL: f64 = 1e-9;
 /// Maxima that differ by less than this fraction are equal within the error of the interpolant.
 const EQUAL: f64 = 1e-7;
 

@@ -11,7 +11,7 @@ mod norms;
 mod settling;
 mod singular_instants;
 
-pub use extreme::{changes, extreme, Extreme, Samples};
+pub use extreme::{changes, extreme, Extreme, Samples, RIVAL};
 pub use instants::instants;
 pub use integrals::{in_blocks, Integrals};
 pub use maxima::Maxima;

@@ -1,7 +1,7 @@
 //! The outcomes of variants.
 
 use super::fine::Between;
-use super::readings::{Missing, PreparedModel, Readings};
+use super::readings::{Missing, Readings};
 use super::request::{Outcome, Sweep, VariantRow, Wanted};
 use super::series::Series;
 use super::variant::Ready;
@@ -11,7 +11,6 @@ use crate::analyses::record::{self, Record};
 use crate::analyses::AnyAnalysis;
 use crate::integrate::Flow;
 use crate::math::{each, Listed};
-use std::sync::Arc;
 
 impl Sweep {
     /// Runs variants, each with its own values of some parameters and of some entries of `set`. Where it is faster,
@@ -72,10 +71,8 @@ impl Sweep {
         };
         // with all outputs, the run needs no others
         let grid = ready.grid.filter(|_| run.trajectory.t.len() == 2);
-        let rests = driven.as_ref().is_some_and(|driven| driven.variable.rests);
-        let whole = driven.map(|driven| Arc::new(PreparedModel::new(driven.model)));
-        let whole = whole.as_ref().unwrap_or(&ready.prepared);
-        self.of_motion(Readings::new(whole, &run, rests, grid)?.solved_by(responses))
+        let (whole, rests) = ready.whole(driven);
+        self.of_motion(Readings::new(&whole, &run, rests, grid)?.solved_by(responses))
     }
 
     /// The statistics of a motion.

@@ -4,7 +4,7 @@ use super::fine::{Between, Fine};
 use super::readings::{Missing, Readings};
 use super::statistic::Statistic;
 use crate::analyses::statistics::{
-    changes, extreme, settling, Extreme, Integrals, Maxima, Samples, Settling,
+    changes, extreme, settling, Extreme, Integrals, Maxima, Samples, Settling, RIVAL,
 };
 use crate::math::Listed;
 use std::cell::OnceCell;
@@ -23,9 +23,6 @@ pub struct Series<'a> {
     extremes: [OnceCell<(Extreme, Vec<f64>)>; 2],
     integrals: OnceCell<Integrals>,
 }
-
-/// Maxima that differ by less than this fraction are equally large.
-const RIVAL: f64 = 1e-9;
 
 impl<'a> Series<'a> {
     pub fn new(between: &'a Between<'a>, place: usize) -> Result<Self, Missing> {

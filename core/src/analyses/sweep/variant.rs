@@ -6,7 +6,7 @@ use super::request::{Outcome, Sweep, VariantRow};
 use super::statistic::Statistic;
 use crate::analyses::assemble::{self, state_until, Request};
 use crate::analyses::dynamics::Variant;
-use crate::analyses::record::{self, Observer, Record, StartState, Subject};
+use crate::analyses::record::{self, Driven, Observer, Record, StartState, Subject};
 use crate::analyses::{chain, fields_of, run_after, AnyAnalysis};
 use crate::integrate::Flow;
 use crate::math::Listed;
@@ -24,6 +24,15 @@ pub struct Ready {
     pub kept: AnyAnalysis,
     /// The first output and the time between outputs, if the outputs are left out.
     pub grid: Option<(f64, f64)>,
+}
+
+impl Ready {
+    /// The model of a motion that `driven` determines, or else of the variant, and whether it rests at each value.
+    pub fn whole(&self, driven: Option<Driven>) -> (Arc<PreparedModel>, bool) {
+        let of =
+            |driven: Driven| (Arc::new(PreparedModel::new(driven.model)), driven.variable.rests);
+        driven.map_or_else(|| (Arc::clone(&self.prepared), false), of)
+    }
 }
 
 impl Sweep {
