@@ -14,8 +14,8 @@ const HERE = dirname(dirname(fileURLToPath(import.meta.url)));
 const ROOT = dirname(HERE);
 /** The compiled core; bindings/web/README.md says how it is built. */
 const CORE = process.env.KEMPE_WEB ?? join(ROOT, "target", "web", "kempe_web.wasm");
-/** Largest page, bytes compressed: 1.02 MB. */
-const MOST = 1_335_000;
+/** Largest page, bytes compressed: 1.35 MB. */
+const MOST = 1_345_000;
 
 const OPTIONS = {
   minify: !process.env.KEMPE_PLAIN,
