@@ -188,9 +188,9 @@ mod tests {
             for i in 0..3 * n {
                 let (row, sign) = own(i);
                 b[i] = sign * dot(&rows[row], &speed);
-                for k in 0..3 * n {
+                for (k, a) in a[i][..3 * n].iter_mut().enumerate() {
                     let (column, other) = own(k);
-                    a[i][k] = sign * other * dot(&rows[row], &over_mass(&rows[column]));
+                    *a = sign * other * dot(&rows[row], &over_mass(&rows[column]));
                 }
             }
             for k in 0..n {
