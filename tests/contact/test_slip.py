@@ -331,3 +331,54 @@ def test_fields_that_do_not_fit(
 def test_coefficients_that_do_not_fit(fields: dict[str, Any], message: str) -> None:
     with pytest.raises(kp.ModelError, match=message):
         kp.assemble(slopes(SCALES[0], fields.pop("friction"), 0.1, **fields))
+
+
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("fields", [{"stiffness": 1e4}, {"stiffness": 5e3, "preload": 200}])
+def test_an_elastic_belt_counts_the_turns_of_nearly_equal_wheels(
+    scale: Scale, fields: dict[str, float]
+) -> None:
+    """Its stretch is many times the change of the equation by a turn of the line of centres."""
+    mass, size, rate = scale
+    force = mass * size * rate**2
+    units = {"stiffness": force / size, "preload": force}
+    given = {name: x * units[name] for name, x in fields.items()}
+    ends = []
+    for other in (0.1, 0.1 * (1 + 1e-6)):
+        m = kp.Model("drive")
+        m.body("frame", mass=mass, inertia=mass * size**2, points={"A": (0, 0), "B": (0, size / 2)})
+        m.ground.points(A=(0, 0))
+        m.revolute("O", "ground.A", "frame.A")
+        m.coordinate_driver("turn", "frame.angle", value=f"{20 * rate!r}*t")
+        for name, point in (("a", "A"), ("b", "B")):
+            m.body(name, mass=mass, inertia=0.02 * mass * size**2, points={"C": (0, 0)})
+            m.revolute(point, f"frame.{point}", f"{name}.C")
+        radii = (0.1 * size, other * size)
+        m.belt("belt", "a.C", "b.C", radii=radii, offset=np.pi / 2 * (radii[1] - radii[0]), **given)
+        m.torque("drive", j="a", torque=2 * force * size)
+        sol = kp.dynamics(m, at_rest(m), t_end=0.5 / rate, method=EXACT)
+        ends.append([sol["a.angle"][-1], sol["b.angle"][-1], sol["belt.tight"][-1] / force])
+        # 2 x'' = 100 T x: half of the torque stretches the strands, around which the wheels swing
+        both = sol["a.angle"][-1] + sol["b.angle"][-1]
+        assert_allclose(both, 0.5 * 100 * 0.25, rtol=1e-4)
+    assert_allclose(*ends, rtol=1e-3)
+
+
+def test_belts_that_cannot_act() -> None:
+    def made(radii: tuple[float, float], carried: bool = True, **fields: Any) -> kp.Model:
+        m = kp.Model("belt")
+        m.ground.points(O=(0, 0), Q=(0.5, 0), R=(0.5, 0))
+        for name, point in (("a", "O"), ("b", "Q")):
+            m.body(name, mass=1, inertia=1, points={"C": (0, 0), "D": (0, 0)})
+            m.revolute(f"pin_{name}", f"ground.{point}", f"{name}.{'C' if carried else 'D'}")
+        m.belt("belt", "a.C", "b.C", radii=radii, **fields)
+        return m
+
+    with pytest.raises(kp.ModelError, match="half a turn of the belt; must be less, or give stiff"):
+        kp.assemble(made((0.1, 0.1005), slack=0.002))
+    kp.assemble(made((0.1, 0.1005), slack=0.002, stiffness=1e5))
+    kp.assemble(made((0.1, 0.1005), slack=0.0015))
+    with pytest.raises(kp.KempeError, match="neither wheel lies within the other"):
+        kp.assemble(made((0.1, 0.7), preload=8, friction=0.4))
+    with pytest.raises(kp.ModelError, match=r"belt\.stiffness: an elastic belt needs both wheels"):
+        kp.assemble(made((0.1, 0.2), carried=False, stiffness=1e4))

@@ -86,3 +86,73 @@ def test_a_board_turns_about_the_foot_that_is_still_on_the_ledge(
     assert_allclose(sol["d.omega"][-1] / rate, own[1], rtol=1e-8)
     assert_allclose(sol["d.y"][-1] / size, back * np.sin(own[0]), rtol=1e-8)
     assert_allclose(sol["d.vx"] / (size * rate), speed, rtol=1e-9)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("radius", [1e-8, 1e-4, 0.05])
+@pytest.mark.parametrize("friction", [None, 0.1])
+def test_a_fast_small_circle_does_not_turn_about_the_ledge(
+    scale: tuple[float, float, float], radius: float, friction: float | None
+) -> None:
+    mass, size, rate = scale
+    m = kp.Model("ledge", gravity=(0, -size * rate**2))
+    m.ground.curves(floor={"line": [[-2 * size, 0], [0.5 * size, 0]]})
+    m.body("b", mass=mass, inertia=0.1 * mass * size**2, points={"C": (0, 0)})
+    fields = {} if friction is None else {"friction": friction}
+    m.contact(
+        "c", "b.C", "ground.floor", side="left", restitution=0, radius=radius * size, **fields
+    )
+    start = {"b.x": 0, "b.y": radius * size, "b.angle": 0}
+    start |= {"b.vx": 2 * size * rate, "b.vy": 0, "b.omega": 0}
+    sol = kp.dynamics(m, kp.assemble(m, start), t_end=1 / rate, method=EXACT)
+    left = np.sqrt(4 - (friction or 0))
+    time = 0.25 if friction is None else (2 - left) / friction
+    assert_allclose(sol.events["c.release"].t * rate, [time], rtol=1e-9)
+    end = [0.5 + left * (1 - time), radius - 0.5 * (1 - time) ** 2]
+    assert_allclose([sol["b.x"][-1] / size, sol["b.y"][-1] / size], end, rtol=1e-8)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_a_rolling_wheel_begins_to_slip_where_it_presses_into_the_ledge(
+    scale: tuple[float, float, float], sense: float
+) -> None:
+    """It rolls on its surface, but about the end of the line on its pressed radius."""
+    mass, size, rate = scale
+    radius, stiffness, damping, friction, inertia = 0.05, 4e3, 0.1, 0.2, 0.02
+    m = kp.Model("ledge", gravity=(0, -size * rate**2))
+    m.ground.curves(floor={"line": [[0.5 * size, 0], [-0.5 * size, 0]]})
+    m.body("b", mass=mass, inertia=inertia * mass * size**2, points={"C": (0, 0)})
+    law = {"stiffness": stiffness * mass * rate**2, "exponent": 1, "friction": friction}
+    law["damping"] = damping / (size * rate)
+    m.contact("c", "b.C", "ground.floor", radius=radius * size, **law)
+    height = radius - 1 / stiffness
+    start = {"b.x": 0.3 * sense * size, "b.y": height * size, "b.angle": 0}
+    start |= {"b.vx": sense * size * rate, "b.vy": 0, "b.omega": -sense / radius * rate}
+    sol = kp.dynamics(m, kp.assemble(m, start), t_end=0.5 / rate, method=EXACT)
+
+    def forces(y: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
+        arm = np.array([y[0] - 0.5, y[1]])
+        d = np.hypot(*arm)
+        normal = arm / d
+        along = np.array([normal[1], -normal[0]])
+        press = max(0.0, stiffness * (radius - d) * (1 - damping * normal @ y[3:5]))
+        slides = along @ y[3:5] + y[5] * d
+        return (
+            -friction * press * np.sign(slides) * d,
+            press * normal,
+            along * -friction * press * (np.sign(slides)),
+        )
+
+    def rates(_: float, y: np.ndarray) -> list[float]:
+        torque, push, rub = forces(y)
+        a = push + rub - [0, 1]
+        return [*y[3:], *a, torque / inertia]
+
+    begin = [0.5, height, 0.0, 1.0, 0.0, -1 / radius]
+    own = solve_ivp(rates, (0.2, 0.5), begin, rtol=1e-10, atol=1e-12, max_step=1e-3).y[:, -1]
+    assert_allclose(sol.events["c.slip"].t * rate, [0.2], rtol=1e-9)
+    assert_allclose(sense * sol["b.x"][-1] / size, own[0], rtol=1e-6)
+    assert_allclose(sol["b.y"][-1] / size, own[1], rtol=1e-6)
+    assert_allclose(sense * sol["b.vx"][-1] / (size * rate), own[3], rtol=1e-6)
+    assert_allclose(sense * sol["b.omega"][-1] / rate, own[5], rtol=1e-6)

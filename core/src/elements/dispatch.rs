@@ -40,6 +40,16 @@ macro_rules! constraints {
             0
         }
 
+        /// Whether joints of a type hold two points together.
+        pub fn pins_points(kind: &str) -> bool {
+            $($($(#[$on])* {
+                if kind == <$Name>::NAME {
+                    return <$Name as Joint>::CONSTANT_COLUMNS;
+                }
+            })+)+
+            false
+        }
+
         /// The fields that turn a joint or driver of a type into a force, unless they are 0.
         pub fn loose_fields(kind: &str) -> &'static [&'static str] {
             $($($(#[$on])* {

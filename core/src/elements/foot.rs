@@ -11,10 +11,10 @@
 use super::apart::{from_corner, Apart, Way};
 use super::field::{Default, Field, Shape};
 use super::kinds::{self, CurveOn, Kind, Side, Source};
+use super::line_foot::{self, beyond, of_line, Straight, LEVEL};
 use super::near::{choose, Near};
 use super::nearest::{AlongCurve, CurveSearch};
 use super::plane_curve::Curve;
-use super::polygon_foot::SUPPORT;
 use crate::expression::Tape;
 use crate::math::{each, Listed, Local, Real};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -55,19 +55,11 @@ impl Rim<Tape> {
     pub fn supporting(&self, side: f64) -> Self {
         let curve = match (&self.on.curve, support_of(side)) {
             (Curve::Polygon(own), Some(support)) => own.supporting(support),
-            (Curve::Line { from, to }, Some(_)) => {
-                Curve::Line { from: extended(from, to), to: extended(to, from) }
-            }
+            (Curve::Line { from, to }, Some(support)) => line_foot::supporting(from, to, support),
             _ => return self.clone(),
         };
         Rim::new(CurveOn { body: self.on.body, curve })
     }
-}
-
-/// A place on the line through `end` and `other`, far beyond `end`.
-fn extended(end: &Local<Tape>, other: &Local<Tape>) -> Local<Tape> {
-    let of = |end: &Tape, other: &Tape| end.clone() - (other.clone() - end.clone()).times(SUPPORT);
-    Local { x: of(&end.x, &other.x), y: of(&end.y, &other.y) }
 }
 
 /// The side at which a body rests on an edge or corner of a polygon with this index.
@@ -209,10 +201,40 @@ impl<S: Real> Rim<S> {
     pub(super) fn near_on(&self, support: Option<usize>, p: Local<S>, side: Side) -> Near<S> {
         match (&self.on.curve, support) {
             (Curve::Polygon(own), Some(support)) => own.foot_on_support(support, p).near,
-            (Curve::Line { from, to }, Some(_)) => {
-                Straight::new(p, *from, *to, sign_of(side)).level()
+            (Curve::Line { from, to }, Some(support)) => {
+                Straight::new(p, *from, *to, sign_of(side)).near_on(support)
             }
             _ => self.near(p, side),
+        }
+    }
+
+    /// The edge or corner of a polygon, or the part of a line, that is nearest to p. None for another curve.
+    pub(super) fn support(&self, p: Local<S>) -> Option<usize> {
+        match &self.on.curve {
+            Curve::Polygon(own) => {
+                Some(own.support(Local::new(p.x.in_lanes()[0], p.y.in_lanes()[0])))
+            }
+            Curve::Line { from, to } => Some(Straight::new(p, *from, *to, S::one()).support()),
+            _ => None,
+        }
+    }
+
+    /// How far p is from where a support ends, relative to the circumference of a polygon or the length of a line.
+    pub(super) fn margin(&self, support: usize, p: Local<S>) -> Option<S> {
+        match &self.on.curve {
+            Curve::Polygon(own) => Some(own.margin(support, p)),
+            Curve::Line { from, to } => {
+                Some(Straight::new(p, *from, *to, S::one()).margin(support))
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a support is an edge of a polygon or the inside of a line, not a corner or an end.
+    pub(super) fn is_level(&self, support: usize) -> bool {
+        match &self.on.curve {
+            Curve::Polygon(own) => own.is_edge(support),
+            _ => support == LEVEL,
         }
     }
 
@@ -312,19 +334,6 @@ fn at_foot<S: Real>(
     (c, first)
 }
 
-/// The nearest point beyond an end: the corner on the side of the contact, the normal at the end behind the curve.
-/// `arm` is the vector from the end to p.
-fn beyond<S: Real>(end: Local<S>, on: Local<S>, normal: Local<S>, arm: Local<S>) -> Near<S> {
-    let (along, up) = (on.dot(arm), normal.dot(arm));
-    let squared = arm.dot(arm);
-    let distance = S::select(squared, squared.sqrt(), S::zero());
-    let part = |a: S, b: S| S::select(squared, a / distance, b);
-    let away = Local::new(part(arm.x, on.x), part(arm.y, on.y));
-    let corner = Near { distance, away, place: end };
-    let behind = Near { distance: along, away: on, place: end + normal.scale(up) };
-    choose(up, corner, behind)
-}
-
 fn of_circle<S: Real>(p: Local<S>, center: Local<S>, radius: S, out: S) -> Near<S> {
     let arm = p - center;
     let squared = arm.dot(arm);
@@ -342,44 +351,4 @@ pub(super) fn sign_of<S: Real>(side: Side) -> S {
         Side::Right => 1.0,
         Side::Left => -1.0,
     })
-}
-
-/// A point and a line without ends.
-struct Straight<S> {
-    from: Local<S>,
-    length: S,
-    tangent: Local<S>,
-    normal: Local<S>,
-    /// The coordinates of the point along the tangent and the normal.
-    u: S,
-    up: S,
-}
-
-impl<S: Real> Straight<S> {
-    fn new(p: Local<S>, from: Local<S>, to: Local<S>, out: S) -> Self {
-        let along = to - from;
-        let length = along.norm();
-        let tangent = along.scale(S::one() / length);
-        let normal = (-tangent.perp()).scale(out);
-        let [u, up] = [tangent.dot(p - from), normal.dot(p - from)];
-        Self { from, length, tangent, normal, u, up }
-    }
-
-    fn level(&self) -> Near<S> {
-        let place = self.from + self.tangent.scale(self.u);
-        Near { distance: self.up, away: self.normal, place }
-    }
-}
-
-fn of_line<S: Real>(p: Local<S>, from: Local<S>, to: Local<S>, out: S) -> Near<S> {
-    let line = Straight::new(p, from, to, out);
-    let (level, Straight { length, tangent, normal, u, up, .. }) = (line.level(), line);
-    let (first, last) = (-u, u - length);
-    let ends = |end: Local<S>, on: Local<S>| beyond(end, on, normal, p - end);
-    // behind the line, the nearest boundary is the line or the normal at an end
-    let outside = choose(first, ends(from, -tangent), choose(last, ends(to, tangent), level));
-    let wall = |by: S, on: Local<S>| Near { distance: by, away: on, place: p - on.scale(by) };
-    let walls = choose(first - last, wall(first, -tangent), wall(last, tangent));
-    let nearer = S::select(-up, walls.distance - up, -S::one());
-    choose(nearer, walls, outside)
 }

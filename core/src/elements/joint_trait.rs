@@ -56,6 +56,8 @@ pub struct Strands<S> {
     pub friction: Option<S>,
     /// The radii of wheels i and j, m.
     pub radii: [S; 2],
+    /// The constant of the equation, m.
+    pub offset: S,
     /// Whether the strands cross.
     pub crossed: bool,
 }

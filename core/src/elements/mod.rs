@@ -30,6 +30,7 @@ mod hertz;
 mod joint_trait;
 mod kinds;
 mod line;
+mod line_foot;
 mod measure;
 mod measured;
 mod mode;

@@ -149,6 +149,11 @@ impl Polygon {
         Curve::Line { from: tapes(edge.from - way), to: tapes(edge.from + way) }
     }
 
+    /// Whether a support is an edge.
+    pub(super) fn is_edge(&self, support: usize) -> bool {
+        support < self.edges.len()
+    }
+
     /// How far p is from where a support ends, relative to the circumference.
     pub(super) fn margin<S: Real>(&self, support: usize, p: Local<S>) -> S {
         let of = S::constant;

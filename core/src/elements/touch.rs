@@ -21,7 +21,6 @@ use super::kinds::{PointOn, Side};
 use super::mode::Mode;
 use super::near::Near;
 use super::plane_curve::Curve;
-use super::polygon_foot::BEYOND;
 use crate::math::{Local, Pose, Real, Vec2, Wrench};
 
 /// A circle of body i and a curve of body j.
@@ -77,31 +76,16 @@ impl<S: Real> CurveTouch<'_, S> {
         self.near(i, j).distance - self.radius
     }
 
-    /// The side at which the circle touches: -1, or less for an edge or corner of a polygon, and for a point on a line.
+    /// The side at which the circle touches: -1, or less for a support, an edge or corner of a polygon or a part of a
+    /// line.
     pub fn side(&self, at: &Situation<'_, S>) -> f64 {
-        match &self.curve.on.curve {
-            Curve::Polygon(own) => {
-                let p = self.center(&at.i().pose, &at.j().pose);
-                side_of(own.support(Local::new(p.x.in_lanes()[0], p.y.in_lanes()[0])))
-            }
-            Curve::Line { .. } if self.radius.in_lanes()[0] == 0.0 => side_of(0),
-            _ => -1.0,
-        }
+        let center = self.center(&at.i().pose, &at.j().pose);
+        self.curve.support(center).map_or(-1.0, side_of)
     }
 
-    /// How far the circle is from the end of the edge or corner on which it rests, as a part of the circumference of the
-    /// polygon; and a point from the ends of a line, beyond which it does not rest, as a part of the length of the line.
+    /// How far the circle is from the end of the support on which it rests, without unit.
     pub fn margin(&self, at: &Situation<'_, S>) -> Option<S> {
-        let center = || self.center(&at.i().pose, &at.j().pose);
-        match &self.curve.on.curve {
-            Curve::Polygon(own) => Some(own.margin(support_of_mode(at.mode)?, center())),
-            Curve::Line { from, to } => {
-                let (u, length) = along_line(center(), *from, *to);
-                let left = u.min(length - u) / length + S::constant(BEYOND);
-                Some(S::select(self.radius, S::one(), left))
-            }
-            _ => None,
-        }
+        self.curve.margin(support_of_mode(at.mode)?, self.center(&at.i().pose, &at.j().pose))
     }
 
     /// +1 if growing u has the body of the curve at its left.
@@ -166,19 +150,16 @@ impl<S: Real> CurveTouch<'_, S> {
             let below = S::select(regular, below, S::one());
             S::select(regular, (bend + self.radius) / below, S::one())
         };
+        if let Some(support) = support_of_mode(mode) {
+            return if self.curve.is_level(support) { S::one() } else { of(S::zero()) };
+        }
         match &self.curve.on.curve {
             Curve::Circle { radius, .. } => of(self.turned() * *radius),
             Curve::Line { from, to } => {
                 let (u, length) = along_line(p, *from, *to);
                 S::select(-u, of(S::zero()), S::select(u - length, of(S::zero()), S::one()))
             }
-            Curve::Polygon(own) => {
-                let level = match support_of_mode(mode) {
-                    Some(support) => own.foot_on_support(support, p).level,
-                    None => own.foot(p).level,
-                };
-                S::select(level, S::one(), of(S::zero()))
-            }
+            Curve::Polygon(own) => S::select(own.foot(p).level, S::one(), of(S::zero())),
             _ => S::one(),
         }
     }
@@ -212,7 +193,7 @@ impl<S: Real> CurveTouch<'_, S> {
     }
 }
 
-/// The edge or corner of a polygon on which a contact in this mode rests.
+/// The support on which a contact in this mode rests.
 fn support_of_mode(mode: Mode) -> Option<usize> {
     match mode {
         Mode::Holds(side) => support_of(side),

@@ -4,7 +4,7 @@
 use super::definition::{Definition, Entry, Value};
 use super::link::Linker;
 use crate::elements::forces::{LooseBelt, Play};
-use crate::elements::{acts_as_force, loose_fields, Constraint, ForceElement, Group};
+use crate::elements::{acts_as_force, catalogue, loose_fields, Constraint, ForceElement, Group};
 use crate::expression::Tape;
 use std::borrow::Cow;
 
@@ -39,8 +39,10 @@ pub(super) fn read(
     }
     let joint = Constraint::read(Group::Joints, kind, linker)?;
     let loose = |joint: Constraint<Tape>| {
-        let coordinate = linker.quantities.acted(&format!("{}.play", entry.name))?;
         let is_elastic = joint.strands().is_some_and(|own| own.stiffness.is_some());
+        let Some(coordinate) = linker.quantities.acted(&format!("{}.play", entry.name)) else {
+            return if is_elastic { not_carried(kind, linker) } else { None };
+        };
         let (has_play, joint) = (joint.backlash().is_some(), Box::new(joint));
         Some(match has_play {
             true => ForceElement::Play(Play { joint, coordinate }),
@@ -48,4 +50,15 @@ pub(super) fn read(
         })
     };
     Some(joint.and_then(loose))
+}
+
+/// Reports an elastic belt whose wheels are not pinned on one body.
+fn not_carried<T>(kind: &str, linker: &mut Linker<'_>) -> Option<T> {
+    let table = catalogue().into_iter().find(|(_, table)| table.name == kind)?.1;
+    let field = table.fields.iter().find(|field| field.name == "stiffness")?;
+    let message =
+        "an elastic belt needs both wheels on one body, from which their turns are counted"
+            .to_string();
+    let hint = "join the points i and j to that body, or to ground, by joints of type revolute";
+    linker.report(field, message, Some(hint.to_string()))
 }

@@ -10,13 +10,13 @@ use super::link::Linker;
 use super::pairs;
 use super::play;
 use super::quantities::Quantities;
-use super::quantity_owner::{place, FormulaModel, QuantityOwner};
+use super::quantity_owner::{place, Carrier, FormulaModel, QuantityOwner};
 use super::scope::Scope;
 use crate::elements::{
-    BodyId, Constraint, Followed, ForceElement, Group, Measured, PointOn, PLACE,
+    pins_points, BodyId, Constraint, Followed, ForceElement, Group, Measured, PointOn, PLACE,
 };
 use crate::expression::Tape;
-use crate::math::Listed;
+use crate::math::{Listed, Local};
 use std::cell::Cell;
 
 /// Largest depth of nesting of elements whose quantities refer to each other.
@@ -59,7 +59,8 @@ impl<'a> Elements<'a> {
             Group::Joints if play::is_written(entry) => {
                 match ForceElement::read(group, kind, &mut fields) {
                     Some(force) => force.map(QuantityOwner::Force),
-                    None => Constraint::read(group, kind, &mut fields)?.map(QuantityOwner::Play),
+                    None => Constraint::read(group, kind, &mut fields)?
+                        .map(|joint| QuantityOwner::Play(joint, self.carrier(entry))),
                 }
             }
             Group::Forces => {
@@ -69,6 +70,39 @@ impl<'a> Elements<'a> {
         };
         self.depth.set(self.depth.get() - 1);
         owner
+    }
+
+    /// The body on which joints that pin points, or its own points, hold the centres of both wheels of a belt with elastic
+    /// strands.
+    fn carrier(&self, belt: &Entry) -> Option<Carrier<Tape>> {
+        let [first, second] = [self.mounts(belt, "i")?, self.mounts(belt, "j")?];
+        let pairs = first.iter().flat_map(|a| second.iter().map(move |b| (a, b)));
+        let ((body, from), (_, to)) = { pairs }.find(|(a, b)| a.0 == b.0)?;
+        Some(Carrier { body: BodyId(*body), centres: [from.clone(), to.clone()] })
+    }
+
+    /// The bodies that hold a centre of an elastic belt, each with the place of the centre.
+    fn mounts(&self, belt: &Entry, end: &str) -> Option<Vec<(usize, Local<Tape>)>> {
+        belt.get("stiffness")?;
+        let text = |entry: &'a Entry, field: &str| match entry.get(field) {
+            Some(Value::Text(text)) => Some(text.as_str()),
+            _ => None,
+        };
+        let Some(Value::Text(centre)) = belt.get(end) else { return None };
+        let pins = self.definition.joints.iter();
+        let pins = pins.filter(|joint| text(joint, "type").is_some_and(pins_points));
+        let ends = pins.filter_map(|joint| Some([text(joint, "i")?, text(joint, "j")?]));
+        let others = ends.filter_map(|[i, j]| match centre {
+            centre if centre == i => Some(j),
+            centre if centre == j => Some(i),
+            _ => None,
+        });
+        let place = |name: &str| {
+            let (body, point) = name.rsplit_once('.')?;
+            let body = self.scope.body(body)?;
+            Some((body, self.bodies[body].point(point)?.clone()))
+        };
+        Some(others.chain([centre.as_str()]).filter_map(place).list())
     }
 
     fn entry(&self, name: &str) -> Option<(Group, &'a Entry)> {
@@ -102,7 +136,7 @@ impl Quantities for Elements<'_> {
         }
         let owner = self.owner(owner).filter(QuantityOwner::has_formulas)?;
         let (k, order) = place(owner.measured(), word)?;
-        if order > 0 {
+        if order > 0 || owner.lacks_carrier() {
             return None;
         }
         Some(self.formulas.followed(&owner, k, name))
@@ -110,7 +144,11 @@ impl Quantities for Elements<'_> {
 
     fn gradient(&self, name: &str) -> Option<[[Tape; 3]; 2]> {
         let (owner, word) = name.rsplit_once('.')?;
-        let owner = self.owner(owner).filter(QuantityOwner::has_formulas)?;
+        let mut owner = self.owner(owner).filter(QuantityOwner::has_formulas)?;
+        if let QuantityOwner::Play(_, carrier) = &mut owner {
+            // the strands act at the wheels, not on the body that carries them
+            *carrier = None;
+        }
         let (k, _) = place(owner.measured(), word)?;
         Some(self.formulas.gradient_of(&owner, k))
     }

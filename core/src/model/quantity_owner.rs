@@ -3,7 +3,7 @@
 use super::variable::Variable;
 use crate::elements::{
     At, Attachment, Backlash, BodyId, Constraint, Coordinate, CoordinateOf, Followed, ForceElement,
-    Measured, PointOn, QuantityOf, PLACE,
+    Measured, PointOn, QuantityOf, Strands, PLACE,
 };
 use crate::expression::{Symbol, Tape, Values};
 use crate::math::{Listed, Local, Pose, Real, Twist};
@@ -17,8 +17,26 @@ pub(super) enum QuantityOwner<S> {
     Force(ForceElement<S>),
     /// The first of several parts of a force, whose quantities have no formulas.
     Several(ForceElement<S>),
-    /// A joint with play.
-    Play(Constraint<S>),
+    /// A joint with play; a belt also has the body that carries both wheels.
+    Play(Constraint<S>, Option<Carrier<S>>),
+}
+
+/// The body on which both wheels of a belt are pinned, with their centres.
+#[derive(Clone)]
+pub(super) struct Carrier<S> {
+    pub body: BodyId,
+    pub centres: [Local<S>; 2],
+}
+
+impl<S: Real> Carrier<S> {
+    /// The opposite of the equation of the belt, without a whole turn of the wheels or of the carrier taken away.
+    fn play(&self, belt: &Strands<S>, at: &At<'_, S>) -> S {
+        let d = self.centres[1] - self.centres[0];
+        let theta = at.bodies[2].angle + d.y.atan2(d.x);
+        let ([r_i, r_j], turned) = (belt.radii, |of: &Pose<S>| of.angle - theta);
+        let r_j = if belt.crossed { r_j } else { -r_j };
+        belt.offset - r_i * turned(at.i()) - r_j * turned(at.j())
+    }
 }
 
 /// Components of a point as quantities.
@@ -35,7 +53,14 @@ impl<S> QuantityOwner<S> {
             Self::Constraint(element) => QuantityOwner::Constraint(element.map(f)),
             Self::Force(element) => QuantityOwner::Force(element.map(f)),
             Self::Several(element) => QuantityOwner::Several(element.map(f)),
-            Self::Play(joint) => QuantityOwner::Play(joint.map(f)),
+            Self::Play(joint, carrier) => {
+                let joint = joint.map(f);
+                let carrier = carrier.as_ref().map(|Carrier { body, centres }| Carrier {
+                    body: *body,
+                    centres: centres.each_ref().map(|s| Local { x: f(&s.x), y: f(&s.y) }),
+                });
+                QuantityOwner::Play(joint, carrier)
+            }
         }
     }
 
@@ -44,7 +69,7 @@ impl<S> QuantityOwner<S> {
             Self::Point(_) => &OF_POINT,
             Self::Constraint(element) => element.measured(),
             Self::Force(element) | Self::Several(element) => element.measured(),
-            Self::Play(_) => &Measured::OF_PLAY,
+            Self::Play(..) => &Measured::OF_PLAY,
         }
     }
 
@@ -57,12 +82,24 @@ impl<S> QuantityOwner<S> {
         }
     }
 
+    /// Whether it is a belt with elastic strands whose wheels are not pinned on one body. Their turns against the line of
+    /// centres are then not known.
+    pub fn lacks_carrier(&self) -> bool
+    where
+        S: Clone,
+    {
+        let Self::Play(joint, None) = self else { return false };
+        joint.strands().is_some_and(|of| of.stiffness.is_some())
+    }
+
     pub fn bodies(&self) -> Vec<BodyId> {
         match self {
             Self::Point(on) => vec![BodyId::GROUND, on.body],
             Self::Constraint(element) => element.bodies(),
             Self::Force(element) | Self::Several(element) => element.bodies(),
-            Self::Play(joint) => joint.bodies(),
+            Self::Play(joint, carrier) => {
+                joint.bodies().into_iter().chain(carrier.iter().map(|of| of.body)).list()
+            }
         }
     }
 }
@@ -78,8 +115,11 @@ impl<S: Real> QuantityOwner<S> {
             }
             Self::Constraint(element) => element.measure(at, &mut values),
             Self::Force(element) | Self::Several(element) => element.measure(at, &mut values),
-            Self::Play(joint) => {
-                let play = joint.play(at);
+            Self::Play(joint, carrier) => {
+                let play = match carrier.as_ref().zip(joint.strands()) {
+                    Some((carrier, belt)) => carrier.play(&belt, at),
+                    None => joint.play(at),
+                };
                 let half = |own: Backlash<S>| S::constant(own.half) * own.size;
                 let half = joint.backlash().map_or(S::zero(), half);
                 values.copy_from_slice(&[half - play.abs(), play]);
@@ -94,7 +134,7 @@ impl<S: Real> QuantityOwner<S> {
         match (self, body) {
             (Self::Point(on), 1) => at(on.s),
             (Self::Point(_), _) => at(Local::zero()),
-            (Self::Constraint(element) | Self::Play(element), _) => element.attachment(body),
+            (Self::Constraint(element) | Self::Play(element, _), _) => element.attachment(body),
             (Self::Force(element) | Self::Several(element), _) => {
                 at(element.points().map_or(Local::zero(), |points| points[body]))
             }

@@ -1,5 +1,4 @@
 //! One or more samples of each element, and random motions to look at them.
-
 use crate::mechanisms::Random;
 use kempe::elements::drivers::CoordinateDriver;
 use kempe::elements::forces::{
@@ -26,7 +25,7 @@ pub fn on(body: usize, x: f64, y: f64) -> PointOn {
 
 /// A curve of body 2 in one of its forms.
 pub fn curve(form: &str) -> CurveOn {
-    let local = |x, y| Local::new(x, y);
+    let local = Local::new;
     let curve = match form {
         "circle" => Curve::Circle { center: local(0.3, -0.2), radius: 0.8 },
         "line" => Curve::Line { from: local(-0.4, 0.1), to: local(0.9, 0.7) },

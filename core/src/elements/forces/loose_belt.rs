@@ -16,8 +16,9 @@
 
 use crate::elements::declare::{Element, Table};
 use crate::elements::{
-    acted, Acted, Attachment, Behaviour, BodyId, Constraint, Followed, Force, Group, Kind, Mode,
-    Nature, Part, ResultQuantity, SceneSymbol, Situation, Source, Strands, Wrenches,
+    acted, Acted, At, Attachment, Behaviour, BodyId, Constraint, Followed, Force, Group, Kind,
+    Mode, Nature, Part, Required, ResultQuantity, SceneSymbol, Situation, Source, Strands,
+    Wrenches,
 };
 use crate::expression::Tape;
 use crate::math::{Listed, Real, Vec2, Wrench};
@@ -81,6 +82,7 @@ impl<S: Real> LooseBelt<S> {
             stiffness: None,
             friction: None,
             radii: [nan; 2],
+            offset: nan,
             crossed: false,
         })
     }
@@ -205,6 +207,18 @@ impl Force for LooseBelt {
         mut out: impl Wrenches<S>,
     ) {
         e.put(FRICTION, effort, &mut out);
+    }
+
+    fn requires(e: &LooseBelt, at: &At<'_, f64>) -> Option<Required<f64>> {
+        let Strands { radii: [r_i, r_j], crossed, .. } = e.strands();
+        let [p_i, p_j] = [0, 1].map(|k| at.bodies[k].point(e.joint.attachment(k).s));
+        let beside = if crossed { r_i + r_j } else { (r_i - r_j).abs() };
+        Some(Required {
+            what: "distance of the centres less the sum of radii of a crossed belt, or the difference of an open one,",
+            is: (p_j - p_i).norm() - beside,
+            must: None,
+            remedy: "move the centres apart, so that neither wheel lies within the other",
+        })
     }
 
     fn arms<S: Real>(e: &LooseBelt<S>, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {

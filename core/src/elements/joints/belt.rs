@@ -91,8 +91,8 @@ impl Joint for Belt {
     }
 
     fn strands<S: Clone>(e: &Belt<S>) -> Option<Strands<S>> {
-        let Belt { preload, slack, stiffness, friction, radii, crossed, .. } = e.clone();
-        Some(Strands { preload, slack, stiffness, friction, radii, crossed })
+        let Belt { preload, slack, stiffness, friction, radii, offset, crossed, .. } = e.clone();
+        Some(Strands { preload, slack, stiffness, friction, radii, offset, crossed })
     }
 
     fn phase_mut<S>(e: &mut Belt<S>) -> Option<&mut S> {
@@ -124,8 +124,18 @@ impl Joint for Belt {
 
     fn fault(e: &Belt) -> Option<(&'static str, String)> {
         let of_radii = e.radii.iter().find_map(|radius| radius_fault("radii", *radius, false));
-        of_radii.or_else(|| fault_of_strands(e).map(|(field, must)| (field, must.to_string())))
+        of_radii
+            .or_else(|| fault_of_strands(e).map(|(field, must)| (field, must.to_string())))
+            .or_else(|| fault_of_slack(e))
     }
+}
+
+/// The fault of a slack that covers all angles of the wheels.
+fn fault_of_slack(e: &Belt) -> Option<(&'static str, String)> {
+    let most = 0.5 * <Belt as Joint>::modulus(e)?.abs();
+    let message =
+        || format!("{most} m is half a turn of the belt; must be less, or give stiffness");
+    (e.stiffness.is_none() && e.slack? >= most).then(|| (SLACK, message()))
 }
 
 /// The fault of a field of the strands.

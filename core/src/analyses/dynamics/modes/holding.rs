@@ -55,7 +55,7 @@ pub(super) fn decide(
             Some(Behaviour::Sticks) => {
                 let rests = drivers_rest(model, *holders, place.t, place.state(model)[0]);
                 let still = threshold.abs() <= STILL * speed || *threshold == 0.0 || rests;
-                let ended = fired.contains(k);
+                let ended = !jumped && fired.contains(k);
                 let old = if jumped { Mode::Open } else { mode_of(before, *k) };
                 let direction = match old {
                     Mode::Slides(sign) if ended => -sign,
@@ -63,7 +63,7 @@ pub(super) fn decide(
                     _ if still && !holders.is_empty() => onset(model, place, *k),
                     _ => 1.0_f64.copysign(*threshold),
                 };
-                (Mode::Slides(direction), still || !jumped && ended || old.holds())
+                (Mode::Slides(direction), still || may_stick(model, place, *k, (old, ended)))
             }
             _ => (Mode::Free, rest.contains(k)),
         };
@@ -90,6 +90,15 @@ pub(super) fn decide(
         }
     }
     Ok(modes)
+}
+
+/// Whether friction sticks or its sliding has ended. A compliant contact that is now beyond the edge, corner or line where
+/// it stuck has another place of contact, which may have a speed.
+fn may_stick(model: &Model, place: &StateAt<'_>, force: usize, (old, ended): (Mode, bool)) -> bool {
+    match old {
+        Mode::Holds(side) => side == place.sides(model, &[force])[0],
+        old => old.holds() || ended,
+    }
 }
 
 /// The direction in which drivers begin to move friction.
