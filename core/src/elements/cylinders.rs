@@ -39,13 +39,6 @@ impl<S: Real> Cylinders<S> {
         Self { stiffness: S::constant(std::f64::consts::PI) * reduced * width, apart }
     }
 
-    /// The half-width a of the strip for a force N, with the signed radius of one of the cylinders.
-    pub fn half_width(&self, force: S, radius: S) -> S {
-        let both = (radius * (self.apart - radius) / self.apart).abs();
-        let squared = S::constant(4.0) * force * both / self.stiffness;
-        S::select(squared, squared.sqrt(), S::zero())
-    }
-
     /// N at a depth, as an odd function. NaN beyond the largest depth.
     pub fn force(&self, depth: S) -> S {
         let part = (-self.logarithm(depth)).exp();

@@ -51,22 +51,12 @@ pub struct Compliance<S> {
 impl<S: Real> Compliance<S> {
     /// The law, for cylinders with a sum of their signed radii.
     pub(super) fn law(&self, apart: S) -> Option<Hertz<S>> {
-        let cylinders = self.cylinders(apart).map(Elastic::Cylinders);
+        let (young, poisson, width) = (self.young, self.poisson, self.width);
+        let cylinders = young.zip(poisson).zip(width).map(|((young, poisson), width)| {
+            Elastic::Cylinders(Cylinders::new([young, poisson, width], apart))
+        });
         let power = self.stiffness.map(|k| Elastic::Power(k, self.exponent));
         Some(Hertz { elastic: cylinders.or(power)?, damping: self.damping })
-    }
-
-    fn cylinders(&self, apart: S) -> Option<Cylinders<S>> {
-        Some(Cylinders::new([self.young?, self.poisson?, self.width?], apart))
-    }
-
-    /// The mean pressure on the strip of two cylinders for a force, with the signed radius of one of them, Pa.
-    pub(super) fn pressure(&self, force: S, radius: S, apart: S) -> S {
-        let Some((cylinders, width)) = self.cylinders(apart).zip(self.width) else {
-            return S::zero();
-        };
-        let strip = S::constant(2.0) * cylinders.half_width(force, radius) * width;
-        S::select(strip, force / strip, S::zero())
     }
 }
 

@@ -6,19 +6,16 @@ use super::polygon_foot::{BEYOND, SUPPORT};
 use crate::expression::Tape;
 use crate::math::{Local, Real};
 
-/// The parts of a line on which a body rests: the line between its ends, and its ends as circles without radius.
+/// The parts of a line on which a body rests: the line between its ends, and its ends.
 pub(super) const LEVEL: usize = 0;
 const FIRST: usize = 1;
 const LAST: usize = 2;
 
-/// The curve of a part on which a body rests.
+/// The curve of a part on which a body rests. Beyond its ends, a line is the corner there.
 pub(super) fn supporting(from: &Local<Tape>, to: &Local<Tape>, support: usize) -> Curve<Tape> {
-    let end =
-        |center: &Local<Tape>| Curve::Circle { center: center.clone(), radius: Tape::from(0.0) };
     match support {
         LEVEL => Curve::Line { from: extended(from, to), to: extended(to, from) },
-        FIRST => end(from),
-        _ => end(to),
+        _ => Curve::Line { from: from.clone(), to: to.clone() },
     }
 }
 

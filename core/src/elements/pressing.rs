@@ -97,12 +97,10 @@ impl<S: Clone> Pressing<'_, S> {
     }
 }
 
-/// The states of wear: the length of sliding, the worn volume and, for cylinders, the worn depth of a surface that is
-/// always in the strip of contact.
-const WORN: [OwnState; 3] = [
+/// The states of wear: the length of sliding and the worn volume.
+const WORN: [OwnState; 2] = [
     OwnState { name: "sliding_distance", unit: "m" },
     OwnState { name: "wear_volume", unit: "m^3" },
-    OwnState { name: "wear_depth", unit: "m" },
 ];
 
 impl<S: Real> Pressing<'_, S> {
@@ -178,11 +176,6 @@ impl<S: Real> Pressing<'_, S> {
         let Some(normal) = self.normal(at, &touch).map(Normal::sum) else { return };
         let speed = at.choose(0, -touch.gap, touch.sliding.abs(), S::zero());
         (out[0], out[1]) = (speed, self.wear * normal * speed);
-        if let Some(depth) = out.get_mut(2) {
-            let circles = self.touch();
-            let radius = circles.turned() * self.radius;
-            *depth = self.wear * self.compliance.pressure(normal, radius, circles.pitch()) * speed;
-        }
     }
 
     fn results(&self, at: &Situation<'_, S>, out: &mut [S]) {
@@ -287,10 +280,9 @@ impl<E: Presses> Force for E {
     }
 
     fn states(given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
-        match (given("wear"), given("young")) {
-            (true, true) => &WORN,
-            (true, false) => &WORN[..2],
-            (false, _) => &[],
+        match given("wear") {
+            true => &WORN,
+            false => &[],
         }
     }
 

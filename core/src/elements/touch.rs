@@ -89,7 +89,7 @@ impl<S: Real> CurveTouch<'_, S> {
     }
 
     /// +1 if growing u has the body of the curve at its left.
-    pub fn turned(&self) -> S {
+    fn turned(&self) -> S {
         sign_of(self.side)
     }
 

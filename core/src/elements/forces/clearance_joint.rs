@@ -56,7 +56,7 @@ element! {
         /// With `restitution`: rate below which the pin rests on the bush.
         rest_speed: number [m/s] = 1e-9,
         /// Worn volume for each newton and each metre of sliding (Archard); for compliant contacts. The
-        /// states sliding_distance, wear_volume and, for hertz, wear_depth then begin at 0.
+        /// states sliding_distance and wear_volume then begin at 0.
         wear: number [m^2/N] = 0.0,
     }
 }

@@ -63,7 +63,7 @@ element! {
         /// With `restitution`: rate below which the bodies rest on each other.
         rest_speed: number [m/s] = 1e-9,
         /// Worn volume for each newton and each metre of sliding (Archard); for compliant contacts. The
-        /// states sliding_distance, wear_volume and, for hertz, wear_depth then begin at 0.
+        /// states sliding_distance and wear_volume then begin at 0.
         wear: number [m^2/N] = 0.0,
         /// Two curves that touch, of body i and of body j, in place of `i`, `curve` and `side`.
         curves: two_texts,

@@ -73,7 +73,7 @@ pub(super) fn decide(
     let contact =
         |k: &usize| !matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
     // forces whose mode has just ended come last
-    let ended = |k: &usize| fired.contains(k) && mode_of(before, *k).holds();
+    let ended = |k: &usize| fired.contains(k) && still_holds(model, place, *k, mode_of(before, *k));
     candidates.order_by_key(|k| (ended(k), !contact(k), *k));
     let ended: Vec<usize> = candidates.iter().copied().filter(ended).list();
     let mut modes = hold(model, place, modes, (&candidates, &ended))?;
@@ -92,12 +92,17 @@ pub(super) fn decide(
     Ok(modes)
 }
 
-/// Whether friction sticks or its sliding has ended. A compliant contact that is now beyond the edge, corner or line where
-/// it stuck has another place of contact, which may have a speed.
+/// Whether friction sticks or its sliding has ended.
 fn may_stick(model: &Model, place: &StateAt<'_>, force: usize, (old, ended): (Mode, bool)) -> bool {
+    still_holds(model, place, force, old) || ended && !old.holds()
+}
+
+/// Whether a force that held is still at the edge, corner or line where it did. Elsewhere, the place of a compliant contact
+/// is another one, which may have a speed.
+fn still_holds(model: &Model, place: &StateAt<'_>, force: usize, old: Mode) -> bool {
     match old {
         Mode::Holds(side) => side == place.sides(model, &[force])[0],
-        old => old.holds() || ended,
+        old => old.holds(),
     }
 }
 
