@@ -501,8 +501,7 @@ class Clearance(Element):
             `stiffness`.
         rest_speed: With `restitution`: rate below which the pin rests on the bush [m/s].
         wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
-            contacts. The states sliding_distance, wear_volume and, for hertz, wear_depth then
-            begin at 0 [m^2/N].
+            contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
     """
 
     i: str
@@ -1001,8 +1000,7 @@ class Contact(Element):
             `stiffness`.
         rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
         wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
-            contacts. The states sliding_distance, wear_volume and, for hertz, wear_depth then
-            begin at 0 [m^2/N].
+            contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
         curves: Two curves that touch, of body i and of body j, in place of `i`, `curve` and
             `side`.
         sides: The sides of the two curves on which the other one lies; right if absent.
@@ -1485,8 +1483,7 @@ class ElementMethods:
                 `stiffness`.
             rest_speed: With `restitution`: rate below which the pin rests on the bush [m/s].
             wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
-                contacts. The states sliding_distance, wear_volume and, for hertz, wear_depth then
-                begin at 0 [m^2/N].
+                contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
         """
         return self._add(
             Clearance(
@@ -1949,8 +1946,7 @@ class ElementMethods:
                 `stiffness`.
             rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
             wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
-                contacts. The states sliding_distance, wear_volume and, for hertz, wear_depth then
-                begin at 0 [m^2/N].
+                contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
             curves: Two curves that touch, of body i and of body j, in place of `i`, `curve` and
                 `side`.
             sides: The sides of the two curves on which the other one lies; right if absent.
