@@ -10,7 +10,7 @@ import pytest
 from sizes import some
 
 #: Seconds of CPU that a run may take.
-MOST = 1.0
+MOST = 5.0
 METHODS = [None, kp.DOP853(rtol=1e-12, atol=1e-14), kp.RK45(rtol=1e-5)]
 
 
