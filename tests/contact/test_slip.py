@@ -374,7 +374,7 @@ def test_belts_that_cannot_act() -> None:
         m.belt("belt", "a.C", "b.C", radii=radii, **fields)
         return m
 
-    with pytest.raises(kp.ModelError, match="half a turn of the belt; must be less, or give stiff"):
+    with pytest.raises(kp.ModelError, match="half a turn of the line of centres; other"):
         kp.assemble(made((0.1, 0.1005), slack=0.002))
     kp.assemble(made((0.1, 0.1005), slack=0.002, stiffness=1e5))
     kp.assemble(made((0.1, 0.1005), slack=0.0015))

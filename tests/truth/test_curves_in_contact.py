@@ -261,6 +261,23 @@ def test_refused_contacts(fields: dict[str, Any], words: str) -> None:
         kp.assemble(m)
 
 
+def test_the_remedy_for_polygons_with_the_law_of_cylinders() -> None:
+    def refused(**fields: Any) -> str:
+        m = kp.Model("pair")
+        m.ground.curves(rim={"polygon": SQUARE})
+        m.body("part", mass=1, inertia=1, curves={"rim": {"polygon": SQUARE}})
+        m.contact("pair", curves=["part.rim", "ground.rim"], **fields)
+        try:
+            kp.assemble(m, {"part.x": 5, "part.y": 0, "part.angle": 0})
+        except kp.KempeError as error:
+            return str(error)
+        return ""
+
+    told = refused(law="hertz", young=1e9, poisson=0.3, width=1)
+    assert "give stiffness in place of law" in told
+    assert not refused(stiffness=1e6, radius=0.01)
+
+
 @pytest.mark.parametrize(
     ("corners", "words"),
     [

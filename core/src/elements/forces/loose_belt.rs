@@ -212,9 +212,14 @@ impl Force for LooseBelt {
     fn requires(e: &LooseBelt, at: &At<'_, f64>) -> Option<Required<f64>> {
         let Strands { radii: [r_i, r_j], crossed, .. } = e.strands();
         let [p_i, p_j] = [0, 1].map(|k| at.bodies[k].point(e.joint.attachment(k).s));
-        let beside = if crossed { r_i + r_j } else { (r_i - r_j).abs() };
+        let (what, beside) = match crossed {
+            true => ("distance of the centres less the sum of the radii", r_i + r_j),
+            false => {
+                ("distance of the centres less the difference of the radii", (r_i - r_j).abs())
+            }
+        };
         Some(Required {
-            what: "distance of the centres less the sum of radii of a crossed belt, or the difference of an open one,",
+            what,
             is: (p_j - p_i).norm() - beside,
             must: None,
             remedy: "move the centres apart, so that neither wheel lies within the other",

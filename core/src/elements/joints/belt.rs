@@ -133,8 +133,9 @@ impl Joint for Belt {
 /// The fault of a slack that covers all angles of the wheels.
 fn fault_of_slack(e: &Belt) -> Option<(&'static str, String)> {
     let most = 0.5 * <Belt as Joint>::modulus(e)?.abs();
-    let message =
-        || format!("{most} m is half a turn of the belt; must be less, or give stiffness");
+    let message = || {
+        format!("must be less than {most} m, half a turn of the line of centres; otherwise give stiffness")
+    };
     (e.stiffness.is_none() && e.slack? >= most).then(|| (SLACK, message()))
 }
 
