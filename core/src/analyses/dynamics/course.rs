@@ -256,7 +256,7 @@ impl PhasedRun {
         base: &Model,
         (run, passage): (&mut Run, &mut Passage),
     ) -> Result<(), Box<Failure>> {
-        let Self { events, at, setting, impacts, .. } = self;
+        let Self { events, at, setting, impacts, stall, .. } = self;
         let open = setting.open(base).map_err(|problems| impossible(&problems, at.t))?;
         let of_force = |index: &usize| match events[*index].effect {
             Effect::Mode { force, .. } => Some(force),
@@ -265,7 +265,9 @@ impl PhasedRun {
         let fired: Vec<usize> = at.fired.iter().filter_map(of_force).list();
         let (t, before) = (at.t, at.y.clone());
         let mut place = StateAt { t, y: &mut at.y };
-        let settled = modes::settle(&open, &mut place, &setting.modes, &fired, *impacts)?;
+        let ended = (fired.as_slice(), stall.ceased.as_slice());
+        let settled = modes::settle(&open, &mut place, &setting.modes, ended, *impacts)?;
+        stall.note(&setting.modes, &settled.modes);
         let index = |force: usize, of: usize| {
             let wanted = Effect::Mode { force, place: of };
             events.iter().position(|event| event.effect == wanted).expect("it was planned")

@@ -30,12 +30,12 @@ const MOST_TRIED: usize = 1500;
 const NOISE: f64 = 1e-13;
 
 /// The modes of all forces that have modes. The arguments include the contacts that touch, the forces whose modes
-/// ended, and, if the velocities jumped, the largest rate before the jump.
+/// ended, those that have ceased to hold at this time, and, if the velocities jumped, the largest rate before the jump.
 pub(super) fn decide(
     model: &Model,
     place: &mut StateAt<'_>,
     before: &[ForceMode],
-    (touching, fired, jumped): (&[usize], &[usize], Option<f64>),
+    (touching, (fired, ceased), jumped): (&[usize], (&[usize], &[usize]), Option<f64>),
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
     let rest = at_rest(model, place, before, touching)?;
     impacts::halt(model, place, &rest)?;
@@ -73,7 +73,8 @@ pub(super) fn decide(
     let contact =
         |k: &usize| !matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
     // forces whose mode has just ended come last
-    let ended = |k: &usize| fired.contains(k) && still_holds(model, place, *k, mode_of(before, *k));
+    let held = |k: &usize| still_holds(model, place, *k, mode_of(before, *k));
+    let ended = |k: &usize| fired.contains(k) && held(k) || !jumped && ceased.contains(k);
     candidates.order_by_key(|k| (ended(k), !contact(k), *k));
     let ended: Vec<usize> = candidates.iter().copied().filter(ended).list();
     let mut modes = hold(model, place, modes, (&candidates, &ended))?;
@@ -117,13 +118,17 @@ fn onset(model: &Model, place: &StateAt<'_>, force: usize) -> f64 {
 fn give_slack(model: &Model, place: &StateAt<'_>, touching: &[usize], modes: &mut [ForceMode]) {
     let rates = place.gap_rates(model, touching);
     let gaps = place.thresholds(model, touching);
-    let noise = NOISE * place.force_scale(model, &[]);
+    let phase = model.in_modes(modes);
+    let noise = NOISE * place.force_scale(&phase, place.solved(&phase).ok().as_ref());
     for own in modes {
         let at = touching.iter().position(|k| *k == own.force);
         own.slack = match (own.mode, at) {
-            (Mode::Free, Some(at)) if rates[at] > StateAt::slow(model, own.force) => 0.0,
             // a gap that was held is not exactly zero
-            (Mode::Free, Some(at)) => place.rounding(model, own.force) + (-gaps[at]).max(0.0),
+            (Mode::Free, Some(at)) => {
+                let slow = rates[at] <= StateAt::slow(model, own.force);
+                let rounding = if slow { place.rounding(model, own.force) } else { 0.0 };
+                rounding + (-gaps[at]).max(0.0)
+            }
             (Mode::Holds(_), _) => noise,
             (Mode::Idle, Some(_)) => place.play(model, own.force),
             _ => own.slack,
@@ -296,7 +301,7 @@ fn worst(
     let motions = Motions::at(&phase.layout, q, v);
     let lam = workspace.lam();
     let acting = Acting { z, lam: Some(lam), t };
-    let scale = place.force_scale(phase, lam);
+    let scale = place.force_scale(phase, Some(&workspace));
     let mut found: Option<(f64, usize, Option<f64>)> = None;
     for (k, item) in phase.forces.iter().enumerate() {
         let (Mode::Holds(_), Some(row)) = (item.mode, item.held_row) else { continue };

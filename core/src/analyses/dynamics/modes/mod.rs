@@ -57,8 +57,9 @@ pub(super) struct Settled {
     pub changed: Vec<(usize, usize)>,
 }
 
-/// Determines the modes at a state, whose velocities jump where contacts hit. `fired` are the forces whose modes
-/// ended there. If `before` contains no modes, the run begins.
+/// Determines the modes at a state, whose velocities jump where contacts hit. The forces `at_once` are those whose modes
+/// ended there, and those that have ceased to hold at the same time before. If `before` contains no modes, the run
+/// begins.
 ///
 /// # Errors
 /// [`Failure`] where the equations have no solution.
@@ -66,7 +67,7 @@ pub(super) fn settle(
     model: &Model,
     place: &mut StateAt<'_>,
     before: &[ForceMode],
-    fired: &[usize],
+    at_once: (&[usize], &[usize]),
     law: (ImpactOrder, RestitutionLaw),
 ) -> Result<Settled, Box<Failure>> {
     let touching = impacts::touching(model, place, before);
@@ -74,7 +75,7 @@ pub(super) fn settle(
     let Hits { hits, impulses, impacts, couples, ended } =
         impacts::resolve(model, place, &touching, law)?;
     let jumped = (!hits.is_empty()).then_some(fastest);
-    let mut modes = holding::decide(model, place, before, (&touching, fired, jumped))?;
+    let mut modes = holding::decide(model, place, before, (&touching, at_once, jumped))?;
     companions::check(model, place, &modes)?;
     keep_closed(model, place, &touching, &mut modes);
     let collapsed = !ended.is_empty();

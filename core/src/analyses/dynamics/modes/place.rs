@@ -109,14 +109,31 @@ impl StateAt<'_> {
         contacts.iter().map(|k| forces::threshold(lifted, *k, &motions, acting)).list()
     }
 
-    /// A force that is large compared with rounding errors of the forces of a state: the largest of the kinetic
-    /// energy per size, the multipliers, and the force on the heaviest body under gravity plus one size per s².
-    pub fn force_scale(&self, model: &Model, lam: &[f64]) -> f64 {
-        let [q, v, _] = self.state(model);
-        let energy = energy::kinetic(model, &Motions::at(&model.layout, q, v));
-        let heaviest = model.bodies.iter().fold(0.0, |most: f64, body| most.max(body.mass));
-        let weight = heaviest * (model.gravity.norm() + size(model));
-        lam.iter().fold((energy / size(model)).max(weight), |most, lam| most.max(lam.abs()))
+    /// A force that is large compared with rounding errors of the forces of a phase: the largest of the kinetic energy
+    /// per size, the multipliers, the reserves of the forces that hold, and the force that gravity or the accelerations
+    /// need on the heaviest body. If all of them are zero, the force on this body for one size per s².
+    pub fn force_scale(&self, phase: &Model, solved: Option<&Workspace>) -> f64 {
+        let ([q, v, z], size) = (self.state(phase), size(phase));
+        let motions = Motions::at(&phase.layout, q, v);
+        let heaviest = phase.bodies.iter().fold(0.0, |most: f64, body| most.max(body.mass));
+        let mut most =
+            (heaviest * phase.gravity.norm()).max(energy::kinetic(phase, &motions) / size);
+        if let Some(solved) = solved {
+            let acting = Acting { z, lam: Some(solved.lam()), t: self.t };
+            let holds = |k: &usize| matches!(phase.forces[*k].mode, Mode::Holds(_));
+            let held = (0..phase.forces.len()).filter(holds);
+            let reserves = held.map(|k| forces::reserve(phase, k, &motions, acting)).list();
+            let scaled = solved.a().iter().zip(column_scales(phase)).map(|(a, scale)| a / scale);
+            let inertial = heaviest * size * largest(&scaled.list());
+            most = [largest(&reserves), inertial, largest(solved.lam())]
+                .into_iter()
+                .fold(most, f64::max);
+        }
+        if most > 0.0 {
+            most
+        } else {
+            heaviest * size
+        }
     }
 
     /// The rounding error of a gap.
