@@ -25,10 +25,8 @@ def points(n: int, high: float, spread: float, **law: float) -> tuple[kp.Model, 
     return m, kp.assemble(m, set=start)
 
 
-def seconds(
-    n: int, high: float, spread: float = 0.0, enough: float = 0.0, **law: float
-) -> float:
-    """The least CPU time of three runs with n points above a line or in it, or a time that is enough."""
+def seconds(n: int, high: float, spread: float = 0.0, enough: float = 0.0, **law: float) -> float:
+    """The least CPU time of three runs with n points near a line, or a time below `enough`."""
     m, state = points(n, high, spread, **law)
     least = float("inf")
     for _ in range(3):
