@@ -5,6 +5,7 @@ vertical forces, and moments about the pivots of the cranks the horizontal ones.
 by the sine of the crank angle: for more than one window they have a pole on the line.
 """
 
+from functools import cache
 from typing import Any
 
 import kempe as kp
@@ -18,6 +19,7 @@ from examples import n_four_bar
 from examples.n_four_bar import GRAVITY, rate, upright, windows
 
 
+@cache
 def passing(n: int, output_step: float = 0.01) -> kp.Solution:
     model = windows(n)
     return kp.dynamics(model, upright(model, n), t_end=10, output_step=output_step)

@@ -25,11 +25,13 @@ def points(n: int, high: float, spread: float, **law: float) -> tuple[kp.Model, 
     return m, kp.assemble(m, set=start)
 
 
-def seconds(n: int, high: float, spread: float = 0.0, **law: float) -> float:
-    """CPU time of a run with n points above a line, or in it."""
+def seconds(n: int, high: float, spread: float = 0.0, enough: float = 0.0, **law: float) -> float:
+    """The least CPU time of three runs with n points near a line, or a time below `enough`."""
     m, state = points(n, high, spread, **law)
     least = float("inf")
     for _ in range(3):
+        if least < enough:
+            break
         begin = time.process_time()
         sol = kp.dynamics(m, state, t_end=0.15)
         least = min(least, time.process_time() - begin)
@@ -50,14 +52,15 @@ def test_a_thousand_contacts_cost_linear_time(high: float, law: dict[str, float]
     # 16 times as many: linear 16, quadratic 256. 250 contacts fit into a cache near the core, 4000
     # do not: measured 23 to 52 on one machine; another took 38 times as long for 8 times as many
     few = count(100, 250)
-    assert seconds(16 * few, high, **law) < 128 * seconds(few, high, **law)
+    limit = 128 * seconds(few, high, **law)
+    assert seconds(16 * few, high, enough=limit, **law) < limit
 
 
 def test_hits_at_different_instants_cost_quadratic_time() -> None:
     # 4 times as many steps, each 4 times as long: quadratic 16, cubic 64
     few = count(40, 60)
-    many = seconds(4 * few, 0.1, 1e-6, restitution=0.5)
-    assert many < 40 * seconds(few, 0.1, 1e-6, restitution=0.5)
+    limit = 40 * seconds(few, 0.1, 1e-6, restitution=0.5)
+    assert seconds(4 * few, 0.1, 1e-6, enough=limit, restitution=0.5) < limit
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 5, 10, 17, 50])

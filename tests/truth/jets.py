@@ -6,7 +6,8 @@ import math
 from dataclasses import dataclass
 
 
-@dataclass(frozen=True)
+# not frozen: a frozen object takes three times as long to make, and tests make millions
+@dataclass(slots=True, eq=False)
 class Jet:
     """A value with its first and second derivative by one variable."""
 
@@ -15,19 +16,24 @@ class Jet:
     second: float = 0.0
 
     def __add__(self, other: Jet | float) -> Jet:
-        o = jet(other)
-        return Jet(self.value + o.value, self.first + o.first, self.second + o.second)
+        if not isinstance(other, Jet):
+            return Jet(self.value + other, self.first, self.second)
+        return Jet(self.value + other.value, self.first + other.first, self.second + other.second)
 
     def __neg__(self) -> Jet:
         return Jet(-self.value, -self.first, -self.second)
 
     def __sub__(self, other: Jet | float) -> Jet:
-        return self + (-jet(other))
+        if not isinstance(other, Jet):
+            return Jet(self.value - other, self.first, self.second)
+        return Jet(self.value - other.value, self.first - other.first, self.second - other.second)
 
     def __mul__(self, other: Jet | float) -> Jet:
-        o = jet(other)
-        second = self.second * o.value + 2 * self.first * o.first + self.value * o.second
-        return Jet(self.value * o.value, self.first * o.value + self.value * o.first, second)
+        if not isinstance(other, Jet):
+            return Jet(self.value * other, self.first * other, self.second * other)
+        x, y = self.value, other.value
+        second = self.second * y + 2 * self.first * other.first + x * other.second
+        return Jet(x * y, self.first * y + x * other.first, second)
 
     __radd__, __rmul__ = __add__, __mul__
 
