@@ -4,7 +4,7 @@ use super::continued::Continued;
 use super::event_list::{EventList, StepEvents, Watched};
 use super::failure::Failure;
 use super::feet::Feet;
-use super::law_jump::LawsBefore;
+use super::laws_before::LawsBefore;
 use super::model_cache::ModelCache;
 use super::motion_ode::MotionOde;
 use super::motion_stepper::MotionStepper;
