@@ -37,6 +37,9 @@ if TYPE_CHECKING:
     from kempe.model.model import Model
     from kempe.results.runs import Run
 
+#: Rounding errors of the time at which a law jumps, relative to the times of a run.
+_ROUNDING = 1e-12
+
 
 @explain_methods
 class Solution(WithSlopes, Tables, Motion):
@@ -236,8 +239,12 @@ class Solution(WithSlopes, Tables, Motion):
         """The state of an event, with the parameters and drivers before it."""
         model = self.compiled
         if self._phases is not None:
-            begins = [self.t[first] for first, _ in self._run.settings]
-            model = self._phases.models[max(int(np.searchsorted(begins, t)) - 1, 0)]
+            firsts = np.array([first for first, _ in self._run.settings])
+            before = max(int(np.searchsorted(self.t[firsts], t)) - 1, 0)
+            # where a law jumps, the rows at this time belong to the next phase
+            if t == self.t[firsts[min(before + 1, len(firsts) - 1)]]:
+                before = int(self._phases.of_row[np.searchsorted(self.t, t)])
+            model = self._phases.models[before]
         return self._state(model, t, q, v, z)
 
     def _state(self, model: CompiledModel, t: float, q: Floats, v: Floats, z: Floats) -> State:
@@ -287,7 +294,11 @@ class Solution(WithSlopes, Tables, Motion):
         """The phases at times; at the time of a change, the phase after it."""
         if self._phases is None:
             return None
-        begins = np.array([self.t[first] for first, _ in self._run.settings])
+        firsts = np.array([first for first, _ in self._run.settings])
+        begins = self.t[firsts]
+        # where a law jumps, the rounding errors of this time belong to the phase after it
+        jumps = (firsts > 0) & (self.t[firsts - 1] != begins)
+        begins = begins - jumps * _ROUNDING * max(abs(self.t[0]), abs(self.t[-1] - self.t[0]))
         return self._phases.at(np.maximum(np.searchsorted(begins, t, side="right") - 1, 0))
 
     def energy_at(self, t: Floats) -> Energy:

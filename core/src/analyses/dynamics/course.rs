@@ -188,6 +188,7 @@ impl PhasedRun {
             if self.pass(base.0, options, act, run)? == Flow::Stop {
                 return Ok(());
             }
+            self.at.jumped &= self.setting.differs_in_modes_only(&before);
             if self.setting != before {
                 self.change_model(base.0, options)?;
             }
@@ -228,6 +229,7 @@ impl PhasedRun {
             self.stall.look(base, self.at.t, &self.setting)?;
             self.settle(base, (run, &mut passage))?;
         }
+        self.at.jumped &= passage.impacts.is_empty() && !passage.replaced;
         run.note(passage);
         Ok(flow)
     }

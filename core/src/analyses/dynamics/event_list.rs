@@ -5,6 +5,7 @@
 
 use super::modes::ModeFunction;
 use super::motion_ode::MotionOde;
+use super::sampling;
 use crate::analyses::conditions::{Condition, Evaluator};
 use crate::analyses::signals::Seen;
 use crate::analyses::so_far::SoFar;
@@ -97,7 +98,8 @@ struct InStep<'l, 'a> {
 
 impl Watch for InStep<'_, '_> {
     fn values(&mut self, t: f64, y: &[f64], out: &mut [f64]) {
-        let EventList { watched, evaluator, began, zero, .. } = &mut *self.list;
+        let EventList { watched, evaluator, began, zero, sampled, before, at_end, .. } =
+            &mut *self.list;
         evaluator.see(self.model, (t, y), self.step, |seen| {
             let values = watched.iter().map(|event| event.function.value(self.model, seen));
             out.iter_mut().zip(values).for_each(|(out, value)| *out = value);
@@ -109,10 +111,21 @@ impl Watch for InStep<'_, '_> {
         }
         if t == began.0 {
             began.1.iter().for_each(|index| out[*index] = 0.0);
-            // the mode may end again after a time that is short compared with the steps
+        }
+        let jumps = *sampled && t == self.step.t_old;
+        if jumps {
+            out.copy_from_slice(before);
+        }
+        if t == began.0 || jumps {
+            // the mode may end after a time that is short compared with the steps
             let of_mode = |event: &Watched<'_>| matches!(event.function, EventFunction::Mode(_));
-            let modes = watched.iter().zip(out).filter(|(event, _)| of_mode(event) && event.ends);
+            let modes =
+                watched.iter().zip(&mut *out).filter(|(event, _)| of_mode(event) && event.ends);
             modes.for_each(|(_, out)| *out = out.max(f64::MIN_POSITIVE));
+        }
+        if t == self.step.t {
+            at_end.clear();
+            at_end.extend_from_slice(out);
         }
     }
 
@@ -154,6 +167,12 @@ pub(super) struct EventList<'a> {
     /// The event at which a step is to end: its time and index.
     awaited: Option<(f64, usize)>,
     tries: usize,
+    /// The values of sampled laws up to the last accepted step, and whether others hold in the present one.
+    held: Option<Vec<f64>>,
+    sampled: bool,
+    /// The values of the functions at the end of the last accepted step, and of the present one.
+    before: Vec<f64>,
+    at_end: Vec<f64>,
 }
 
 impl<'a> EventList<'a> {
@@ -181,7 +200,20 @@ impl<'a> EventList<'a> {
         }
         let evaluator = Evaluator::new(ode.model, solves, &ode.workspace, so_far);
         let (began, zero, awaited) = ((t, fired.to_vec()), None, None);
-        Some(Self { watched, evaluator, began, zero, awaited, tries: 0 })
+        let (before, at_end) = (Vec::new(), Vec::new());
+        let (tries, held, sampled) = (0, None, false);
+        Some(Self {
+            watched,
+            evaluator,
+            began,
+            zero,
+            awaited,
+            tries,
+            held,
+            sampled,
+            before,
+            at_end,
+        })
     }
 
     /// The run up to the last accepted step.
@@ -212,6 +244,9 @@ impl<'a> EventList<'a> {
         if self.zero.is_none() {
             self.zero = Some(self.rounding(model, step));
         }
+        let held = sampling::held(model, step.y_old);
+        self.sampled = self.held.as_ref().is_some_and(|before| *before != held)
+            && self.before.len() == self.watched.len();
         let arrived = self.awaited.filter(|(t, _)| *t == step.t);
         let found = self.scan(model, step, arrived.is_some() || step.t == t_end)?;
         let spacing = CLOSE * f64::EPSILON * step.t.abs().max(step.t_old.abs());
@@ -224,6 +259,8 @@ impl<'a> EventList<'a> {
         };
         let Some((t, index)) = end else {
             self.evaluator.advance(model, step);
+            self.held = Some(held);
+            std::mem::swap(&mut self.before, &mut self.at_end);
             // the phase ends where the event was expected, and the next one continues
             return Ok(if arrived.is_some() {
                 StepEvents::End(found)

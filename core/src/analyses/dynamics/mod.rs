@@ -30,6 +30,7 @@
 //! | `accelerations`, `energies` | quantities that follow from reported states |
 //! | `prepared`, `model_cache` | a model for many runs |
 //! | `law_jump` | laws of joints and drivers that jump |
+//! | `laws_before` | laws of forces that jump where a phase ends |
 //! | `failure`, `clock` | errors in terms of the mechanism; wall time |
 
 mod absolute_tolerance;
@@ -53,6 +54,7 @@ mod lane_batch;
 mod lane_motion;
 mod law_fault;
 mod law_jump;
+mod laws_before;
 mod massless;
 mod method_options;
 mod method_switching;

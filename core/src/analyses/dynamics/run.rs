@@ -4,13 +4,14 @@ use super::continued::Continued;
 use super::event_list::{EventList, StepEvents, Watched};
 use super::failure::Failure;
 use super::feet::Feet;
+use super::laws_before::LawsBefore;
 use super::model_cache::ModelCache;
 use super::motion_ode::MotionOde;
 use super::motion_stepper::MotionStepper;
 use super::options::Options;
 use super::recorder::{self, Recorder};
 use super::redundant_rows::workspace_at;
-use super::run_results::Run;
+use super::run_results::{Run, ROUNDING};
 use super::start_check::StartCheck;
 use super::switch_schedule::Schedule;
 use crate::analyses::curves::Ranges;
@@ -45,6 +46,10 @@ pub(super) struct Progress {
     checked: bool,
     /// The numbers of events in the parts of the run before the last pause.
     earlier: Vec<usize>,
+    /// Whether forces jump at the end of the last phase, where a law changes, and the next phase begins with the same
+    /// state and parameters.
+    #[serde(default)]
+    pub jumped: bool,
 }
 
 impl Progress {
@@ -61,6 +66,18 @@ impl Progress {
     pub fn state(&self, model: &Model) -> State {
         let [q, v, z, _] = model.layout.split(&self.y).map(<[f64]>::to_vec);
         State { t: self.t, q, v, z }
+    }
+
+    /// The first row of the next phase. Where a law has jumped at its beginning, the rows at this time belong to it:
+    /// they have the forces of the law at this time, which the phase before could not carry.
+    fn first_row(&mut self, run: &Run) -> usize {
+        let rows = run.trajectory.t.len();
+        let least = run.phases.last().map_or(rows, |first| first + 1);
+        if !std::mem::take(&mut self.jumped) || least >= rows {
+            return rows;
+        }
+        let here = |t: &&f64| (**t - self.t).abs() <= 4.0 * f64::EPSILON * self.t.abs();
+        rows - run.trajectory.t[least..].iter().rev().take_while(here).count()
     }
 
     /// How often an event has occurred.
@@ -149,7 +166,7 @@ pub(super) fn begin_phase<'a>(
     let schedule = Schedule::new(model, (at.t, options.t_end))?;
     let workspace = workspace_at((model, cache), at.t, [q, v, z]);
     let mut ode = MotionOde::new(model, options, workspace);
-    run.phases.push(run.trajectory.t.len());
+    run.phases.push(at.first_row(run));
     run.passing = ode.passing;
     run.projection = ode.projection();
     let wide = cache.wide(model, recorder::grid_steps(options, at.t) as usize);
@@ -203,6 +220,7 @@ pub(super) struct PhaseSteps<'a> {
     /// The events that end the phase.
     fired: Vec<usize>,
     motions: Motions,
+    laws: LawsBefore,
 }
 
 impl<'a> PhaseSteps<'a> {
@@ -220,7 +238,8 @@ impl<'a> PhaseSteps<'a> {
         let (ranges, t_end, fired) = (Ranges::of(model), options.t_end, Vec::new());
         let feet = Feet::of(model, model.layout.split(&at.y)[0]);
         let motions = Motions::new(&model.layout);
-        Ok(Self { stepper, events, ranges, feet, start, t_end, fired, motions })
+        let laws = LawsBefore::new(model, &at.y);
+        Ok(Self { stepper, events, ranges, feet, start, t_end, fired, motions, laws })
     }
 
     /// How the phase ended, if the last step reached its end.
@@ -257,6 +276,9 @@ impl<'a> PhaseSteps<'a> {
         let Self { stepper, events, fired, motions, .. } = self;
         match observe(stepper, events, observers, (run, motions), fired) {
             Ok(Next::Step(Flow::Continue)) => {
+                let (start, end) = (self.start.0, self.t_end);
+                let span = start.abs().max((end - start).abs());
+                self.laws.keep(&self.stepper.ode, self.stepper.last_step(), ROUNDING * span);
                 let q = model.layout.split(self.stepper.y())[0];
                 let beyond = self.ranges.beyond(model, q);
                 let failure =
@@ -291,6 +313,7 @@ impl<'a> PhaseSteps<'a> {
         run.passed.append(&mut self.stepper.passed);
         at.t = self.stepper.t();
         at.y.copy_from_slice(self.stepper.y());
+        at.jumped = self.laws.jump(&mut self.stepper.ode, at.t, &at.y);
         at.fired = self.fired;
         at.so_far = self.events.map(EventList::so_far).unwrap_or_default();
     }

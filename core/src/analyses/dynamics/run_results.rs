@@ -66,6 +66,9 @@ pub struct Passed {
     pub residual: f64,
 }
 
+/// Rounding errors of the time of a switch, relative to the times of a run.
+pub(super) const ROUNDING: f64 = 1e-12;
+
 /// The outcome of forward dynamics.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Run {
@@ -126,6 +129,16 @@ impl Run {
         if self.dense.is_some() {
             self.passages.push(passage);
         }
+    }
+
+    /// The time from which a phase has the states between the outputs, s. Where a law jumps at its beginning, the phase
+    /// before has no row at this time, and the rounding errors of this time belong to the new phase.
+    pub fn begins(&self, phase: usize) -> Option<f64> {
+        let (first, t) = (*self.phases.get(phase)?, &self.trajectory.t);
+        let begins = *t.get(first)?;
+        let jumps = first > 0 && t[first - 1] != begins;
+        let rounding = ROUNDING * t[0].abs().max((t[t.len() - 1] - t[0]).abs());
+        Some(if jumps { begins - rounding } else { begins })
     }
 
     /// The reported states of a phase.

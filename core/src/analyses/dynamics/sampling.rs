@@ -27,7 +27,7 @@ impl Sample {
         let functions = model.blueprint.functions.as_ref()?;
         let [q, v, z, _] = model.layout.split(y);
         let x = [&[t], q, v, z].concat();
-        let mut values: Vec<f64> = model.layout.held.iter().map(|place| z[*place]).list();
+        let mut values = held(model, y);
         let due = functions.sampled().zip(&mut values).filter(|((.., times), _)| times.is_at(t));
         let due: Vec<_> =
             due.map(|((law, ..), value)| *value = functions.value(law, &x, x.len())).list();
@@ -45,6 +45,12 @@ impl Sample {
     pub fn reaches(&self, t: f64) -> bool {
         t >= self.t - SAME * (1.0 + t.abs())
     }
+}
+
+/// The present values of all sampled laws.
+pub(super) fn held(model: &Model, y: &[f64]) -> Vec<f64> {
+    let [_, _, z, _] = model.layout.split(y);
+    model.layout.held.iter().map(|place| z[*place]).list()
 }
 
 /// The times of samples strictly between `t0` and `t_end`, ascending.

@@ -33,6 +33,11 @@ impl Setting {
         }
     }
 
+    /// Whether parameters and released drivers equal those of another setting.
+    pub(super) fn differs_in_modes_only(&self, other: &Self) -> bool {
+        self.parameters == other.parameters && self.released == other.released
+    }
+
     /// Whether the phase uses the given model unchanged.
     pub fn is_plain(&self) -> bool {
         *self == Self::default()

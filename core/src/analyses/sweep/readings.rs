@@ -67,7 +67,7 @@ impl<'a> Readings<'a> {
         grid: Option<(f64, f64)>,
     ) -> Result<Self, Missing> {
         let mut phases = Vec::new();
-        for (k, first) in run.phases.iter().enumerate() {
+        for k in 0..run.phases.len() {
             let prepared = match run.settings.get(k).filter(|setting| !setting.is_plain()) {
                 None => Arc::clone(whole),
                 Some(setting) if setting.modes.iter().any(|of| of.mode == Mode::Idle) => {
@@ -78,7 +78,7 @@ impl<'a> Readings<'a> {
                     Arc::new(Prepared::new(Arc::new(own)))
                 }
             };
-            let begins = run.trajectory.t.get(*first).copied().ok_or(Missing::Single)?;
+            let begins = run.begins(k).ok_or(Missing::Single)?;
             phases.push(ReadPhase { prepared, begins, measures: Vec::new() });
         }
         Ok(Self { phases, run, wanted: Vec::new(), grid, rests, solved: OnceCell::new() })
