@@ -130,6 +130,9 @@ impl Presses for Contact {
     }
 
     fn symbols(e: &Contact) -> Vec<SceneSymbol> {
+        if e.curve.mate.is_some() {
+            return Vec::new(); // its curves are drawn
+        }
         let (i, j) = (SymbolEnd::point(&e.i), SymbolEnd::body(e.curve.on.body));
         vec![match e.radius > 0.0 {
             true => SceneSymbol::new(Mark::Round, i, j).to_scale([e.radius, 0.0]),
@@ -140,6 +143,9 @@ impl Presses for Contact {
     fn fault(e: &Contact) -> Option<(&'static str, String)> {
         if e.radius < 0.0 {
             return Some(("radius", "must not be negative".to_string()));
+        }
+        if e.curve.mate.is_some() {
+            return e.curve.fault_of_pair(e.side).map(|message| ("curves", message));
         }
         let curve = &e.curve.on.curve;
         let searched = curve.fault().is_none() && !e.curve.is_closed_form();
