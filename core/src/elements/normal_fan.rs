@@ -288,9 +288,12 @@ impl NormalFan {
         Extreme { patch: Patch::Arc, u, point: terms[0], radius }
     }
 
-    /// The smallest radius of curvature of the arc; zero if there is none.
+    /// The smallest radius of curvature; zero at a corner.
     pub fn least_radius(&self) -> f64 {
-        self.radii[0]
+        match self.edges.is_empty() {
+            true => self.radii[0],
+            false => 0.0,
+        }
     }
 
     /// The largest radius of curvature within an angle of a direction; infinite at an edge.

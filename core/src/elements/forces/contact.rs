@@ -1,7 +1,8 @@
 //! Contact of a point or circle of body i with a curve of body j.
 //!
 //! The gap is the distance of Pᵢ from the nearest point C(u) of the curve, minus the radius. The distance is positive
-//! on the `side` of the curve. `elements/pressing.rs` contains the forces.
+//! on the `side` of the curve. `elements/pressing.rs` contains the forces. A smooth curve of body i may touch in place of
+//! the point, see `elements/curve_pair.rs`.
 //!
 //! With a coefficient of restitution e, there is no depth. If the gap closes at the rate ġ, it opens at the rate -e ġ
 //! after an impact of the whole mechanism, or the bodies rest on each other, held by the equation gap(q) = 0.
