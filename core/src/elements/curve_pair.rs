@@ -20,7 +20,7 @@ use super::foot::{at_foot, Rim};
 use super::kinds::Side;
 use super::near::{choose, Near};
 use super::normal_fan::{
-    direction, nearest_direction, terms, Extreme, NormalFan, Patch, ALL_AROUND, DIRECTIONS,
+    direction, nearest_direction, terms, ExtremePlace, NormalFan, Patch, ALL_AROUND, DIRECTIONS,
 };
 use super::plane_curve::Curve;
 use crate::math::{each, Local, Pose, Real, Rotation};
@@ -31,12 +31,12 @@ const STEPS: usize = 100;
 
 /// Body i as body j sees it: the origin of its frame, and its rotation.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen<S = f64> {
+pub struct BodySeen<S = f64> {
     origin: Local<S>,
     rotation: Rotation<S>,
 }
 
-impl<S: Real> Seen<S> {
+impl<S: Real> BodySeen<S> {
     /// From the poses of bodies i and j.
     pub fn new(i: &Pose<S>, j: &Pose<S>) -> Self {
         let ([a, b], [c, d]) = ([i.rotation.cos, i.rotation.sin], [j.rotation.cos, j.rotation.sin]);
@@ -53,14 +53,14 @@ impl<S: Real> Seen<S> {
         self.origin + self.way(s)
     }
 
-    fn lane(&self, k: usize) -> Seen {
+    fn lane(&self, k: usize) -> BodySeen {
         let of = |x: S| x.in_lanes()[k];
         let rotation = Rotation { cos: of(self.rotation.cos), sin: of(self.rotation.sin) };
-        Seen { origin: Local::new(of(self.origin.x), of(self.origin.y)), rotation }
+        BodySeen { origin: Local::new(of(self.origin.x), of(self.origin.y)), rotation }
     }
 }
 
-impl Seen {
+impl BodySeen {
     fn angle(&self) -> f64 {
         self.rotation.sin.atan2(self.rotation.cos)
     }
@@ -80,13 +80,13 @@ struct Meeting {
 /// Two bodies in a position.
 struct Both<'f> {
     fans: [&'f NormalFan; 2],
-    seen: Seen,
+    seen: BodySeen,
     angle: f64,
 }
 
 impl Both<'_> {
     /// σ and σ′ for two extreme points.
-    fn apart(&self, theta: f64, [i, j]: [Extreme; 2]) -> [f64; 2] {
+    fn apart(&self, theta: f64, [i, j]: [ExtremePlace; 2]) -> [f64; 2] {
         let (n, d) = (direction(theta), self.seen.place(i.point) - j.point);
         [n.dot(d), n.perp().dot(d)]
     }
@@ -96,11 +96,11 @@ impl Both<'_> {
         theta + PI - self.angle
     }
 
-    fn extremes(&self, theta: f64) -> [Extreme; 2] {
+    fn extremes(&self, theta: f64) -> [ExtremePlace; 2] {
         [self.fans[0].extreme(self.facing(theta)), self.fans[1].extreme(theta)]
     }
 
-    fn meeting(&self, theta: f64, extremes: [Extreme; 2]) -> Meeting {
+    fn meeting(&self, theta: f64, extremes: [ExtremePlace; 2]) -> Meeting {
         let [apart, _] = self.apart(theta, extremes);
         let [i, j] = extremes;
         Meeting { theta, apart, patches: [i.patch, j.patch], u: [i.u, j.u] }
@@ -156,7 +156,7 @@ impl Both<'_> {
                 let mut extremes = self.extremes(theta);
                 let [before, after] = fan.edges[k].ends;
                 // σ rises before the edge and falls behind it
-                let slope = |of: &mut [Extreme; 2], patch: Patch, outside: f64| {
+                let slope = |of: &mut [ExtremePlace; 2], patch: Patch, outside: f64| {
                     of[body] = fan.at(patch);
                     match patch {
                         Patch::Outside => outside,
@@ -242,11 +242,11 @@ impl Rim {
 
     /// The distance from the curve of body i. None without such a curve.
     pub fn pair_apart(&self, i: &Pose, j: &Pose, side: Side) -> Option<PairApart> {
-        let (both, meeting) = self.meeting_in(0, &Seen::new(i, j), side)?;
+        let (both, meeting) = self.meeting_in(0, &BodySeen::new(i, j), side)?;
         let fan = both.fans[0];
         let facing = both.facing(meeting.theta);
         let place = match meeting.patches[0] {
-            // either end of an edge may stand for it
+            // an edge has the same distance at both ends
             Patch::Edge(k) => fan.at(fan.edges[k].ends[1]),
             Patch::Corner(_) | Patch::Outside => fan.at(meeting.patches[0]),
             Patch::Arc => fan.extreme(facing),
@@ -270,7 +270,7 @@ impl Rim {
 }
 
 impl<S: Real> Rim<S> {
-    fn meeting_in(&self, lane: usize, seen: &Seen, side: Side) -> Option<(Both<'_>, Meeting)> {
+    fn meeting_in(&self, lane: usize, seen: &BodySeen, side: Side) -> Option<(Both<'_>, Meeting)> {
         let mate = self.mate.as_ref()?;
         let fans = [mate.rim.fan(lane, mate.side), self.fan(lane, side)];
         let both = Both { fans, seen: *seen, angle: seen.angle() };
@@ -281,7 +281,8 @@ impl<S: Real> Rim<S> {
     }
 
     /// The place of the curve that is nearest to the curve of body i.
-    pub(super) fn near_pair(&self, seen: &Seen<S>, side: Side) -> Near<S> {
+    #[inline(never)]
+    pub(super) fn near_pair(&self, seen: &BodySeen<S>, side: Side) -> Near<S> {
         let nothing = Meeting {
             theta: f64::NAN,
             apart: f64::NAN,
@@ -293,7 +294,7 @@ impl<S: Real> Rim<S> {
         };
         let mut found = [at(0); 4];
         let numbers = |lane: usize| {
-            let Seen { origin, rotation } = seen.lane(lane);
+            let BodySeen { origin, rotation } = seen.lane(lane);
             [origin.x, origin.y, rotation.cos, rotation.sin]
         };
         let one = self.is_one_curve();
@@ -311,7 +312,8 @@ impl<S: Real> Rim<S> {
     }
 
     /// The nearest place in the lanes that have the parts of a given lane.
-    fn near_at(&self, seen: &Seen<S>, found: [Meeting; 4], lane: usize) -> Near<S> {
+    #[inline(never)]
+    fn near_at(&self, seen: &BodySeen<S>, found: [Meeting; 4], lane: usize) -> Near<S> {
         let own =
             each(found, |of| if of.patches == found[lane].patches { of } else { found[lane] });
         let u = |body: usize| S::of_lanes(each(own, |of| of.u[body]));
@@ -327,20 +329,18 @@ impl<S: Real> Rim<S> {
         let corner = |patch: Patch| matches!(patch, Patch::Corner(_));
         let (at_i, at_j, tangent) = match (corner(of_i), corner(of_j)) {
             (false, false) => together(i, j),
-            (false, true) => {
-                let (at_i, tangent) = at_foot(i, j[0], S::one());
-                (at_i, j[0], tangent)
-            }
-            (true, false) => {
-                let (at_j, tangent) = at_foot(j, i[0], S::one());
-                (i[0], at_j, tangent)
-            }
             (true, true) => {
                 let arm = i[0] - j[0];
                 let squared = arm.dot(arm);
                 let part = |x: S, other: S| S::select(squared, x, other);
                 let other = facing.perp();
                 (i[0], j[0], Local::new(part(-arm.y, other.x), part(arm.x, other.y)))
+            }
+            (of_i, _) => {
+                let (along, p) = if of_i { (j, i[0]) } else { (i, j[0]) };
+                let (at, tangent) = at_foot(along, p, S::one());
+                let [at_i, at_j] = if of_i { [p, at] } else { [at, p] };
+                (at_i, at_j, tangent)
             }
         };
         let normal = (-tangent.perp()).scale(S::one() / tangent.norm());

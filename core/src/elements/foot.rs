@@ -342,6 +342,7 @@ impl<S: Real> Rim<S> {
 }
 
 /// C and C′ at the foot of p on the cubic with these derivatives, or at the start of the cubic where `inner` ≤ 0.
+#[inline(never)]
 pub(super) fn at_foot<S: Real>(
     [c0, c1, c2, c3]: [Local<S>; 4],
     p: Local<S>,

@@ -6,7 +6,6 @@
 //! chord. That of a line lies behind it, between the normals at its ends.
 
 use super::contact::{curvature, places};
-use super::foot::sign_of;
 use super::kinds::Side;
 use super::plane_curve::Curve;
 use crate::math::{Listed, Local, Real};
@@ -39,7 +38,7 @@ pub(super) enum Patch {
 
 /// The farthest place in a direction.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Extreme {
+pub(super) struct ExtremePlace {
     pub patch: Patch,
     /// The place along the curve, on an arc.
     pub u: f64,
@@ -70,6 +69,7 @@ pub(super) fn corner<S: Real>(curve: &Curve<S>, k: usize) -> Local<S> {
 }
 
 /// C, C′, C″ and C‴ of a part of the boundary, along u or along an edge.
+#[inline(never)]
 pub(super) fn terms<S: Real>(curve: &Curve<S>, patch: Patch, u: S) -> [Local<S>; 4] {
     let zero = Local::zero();
     let straight = |from: Local<S>, along: Local<S>| [from, along, zero, zero];
@@ -109,7 +109,7 @@ pub(super) struct NormalFan {
 
 impl NormalFan {
     pub fn new(curve: &Curve, side: Side) -> Self {
-        let out = sign_of(side);
+        let out = if side == Side::Right { 1.0 } else { -1.0 };
         let mut own = Self {
             curve: curve.clone(),
             out,
@@ -237,7 +237,7 @@ impl NormalFan {
     }
 
     /// The extreme point in a direction.
-    pub fn extreme(&self, theta: f64) -> Extreme {
+    pub fn extreme(&self, theta: f64) -> ExtremePlace {
         let first = self.parts[0].0;
         let theta = first + turn(first, theta);
         let part = self.parts.partition_point(|(begin, _)| *begin <= theta);
@@ -248,16 +248,16 @@ impl NormalFan {
     }
 
     /// The extreme point of a part that is no arc.
-    pub fn at(&self, patch: Patch) -> Extreme {
+    pub fn at(&self, patch: Patch) -> ExtremePlace {
         let point = match patch {
             Patch::Corner(k) => corner(&self.curve, k),
             _ => Local::new(f64::NAN, f64::NAN),
         };
-        Extreme { patch, u: 0.0, point, radius: 0.0 }
+        ExtremePlace { patch, u: 0.0, point, radius: 0.0 }
     }
 
     /// Newton's method on C′·n = 0 between two known places.
-    fn on_arc(&self, theta: f64) -> Extreme {
+    fn on_arc(&self, theta: f64) -> ExtremePlace {
         let k = self.arc.partition_point(|[known, _]| *known <= theta).clamp(1, self.arc.len() - 1);
         let [[low, a], [high, b]] = [self.arc[k - 1], self.arc[k]];
         let normal = direction(theta);
@@ -285,7 +285,7 @@ impl NormalFan {
             }
         }
         let radius = 1.0 / (self.out * curvature(&terms));
-        Extreme { patch: Patch::Arc, u, point: terms[0], radius }
+        ExtremePlace { patch: Patch::Arc, u, point: terms[0], radius }
     }
 
     /// The smallest radius of curvature; zero at a corner.

@@ -14,7 +14,7 @@
 //! equation s = constant of the positions, also for a compliant contact, in which d < r. In a rigid contact d = r, and
 //! the pitch point is C(u).
 
-use super::curve_pair::Seen;
+use super::curve_pair::BodySeen;
 use super::foot::{side_of, sign_of, support_of, Rim};
 use super::force_trait::Situation;
 use super::hertz::Depth;
@@ -75,7 +75,7 @@ impl<S: Real> CurveTouch<'_, S> {
     /// The nearest point on the support on which the circle rests.
     fn near_on(&self, support: Option<usize>, i: &Pose<S>, j: &Pose<S>) -> Near<S> {
         match self.curve.mate {
-            Some(_) => self.curve.near_pair(&Seen::new(i, j), self.side),
+            Some(_) => self.curve.near_pair(&BodySeen::new(i, j), self.side),
             None => self.curve.near_on(support, self.center(i, j), self.side),
         }
     }

@@ -186,8 +186,8 @@ fn sides_of(
     Some(both_sides)
 }
 
-/// Refuses a compliant contact of two curves whose bodies the model does not know behind the places that press: where a
-/// body is thin or divided, a depth would push it out at its back.
+/// Refuses a compliant contact of two curves whose bodies are not known behind the places that press: where a body is
+/// thin or divided, a depth would push it out at its back.
 fn firm(
     curves: &Field,
     names: [&str; 2],
@@ -276,6 +276,23 @@ impl TouchForm {
     }
 }
 
+/// The pairings of a smooth curve with parts of another one. The smooth curve touches in place of a point.
+fn smooth_on(
+    parts: &[CurveOn<Tape>],
+    (own, [own_side, side]): (&CurveOn<Tape>, [Side; 2]),
+) -> Vec<Pairing> {
+    let zero = || Tape::from(0.0);
+    let one = |curve: &CurveOn<Tape>| Pairing {
+        point: PointOn { body: own.body, s: Local { x: zero(), y: zero() } },
+        curve: curve.clone(),
+        side,
+        radius: None,
+        rounding: 0.0,
+        mate: Some((own.clone(), own_side)),
+    };
+    parts.iter().map(one).list()
+}
+
 /// All pairings in which two curves may touch. None if the curves are refused.
 fn pairings(both: [&CurveOn<Tape>; 2], sides: [Side; 2], sharp: bool) -> Option<Vec<Pairing>> {
     // a sharp corner does not touch another one
@@ -311,20 +328,6 @@ fn pairings(both: [&CurveOn<Tape>; 2], sides: [Side; 2], sharp: bool) -> Option<
         };
         parts.iter().flat_map(|part| corners.iter().map(move |of| (part, of))).map(one).list()
     };
-    // a smooth curve touches in place of a point
-    let smooth_on = |parts: &[CurveOn<Tape>], k: usize| {
-        let own = both[1 - k];
-        let zero = || Tape::from(0.0);
-        let one = |curve: &CurveOn<Tape>| Pairing {
-            point: PointOn { body: own.body, s: Local { x: zero(), y: zero() } },
-            curve: curve.clone(),
-            side: sides[k],
-            radius: None,
-            rounding: 0.0,
-            mate: Some((own.clone(), sides[1 - k])),
-        };
-        parts.iter().map(one).list()
-    };
     let forms = [TouchForm::of(both[0], sides[0]), TouchForm::of(both[1], sides[1])];
     let [i, j] = &forms;
     Some(match [i, j] {
@@ -337,9 +340,11 @@ fn pairings(both: [&CurveOn<Tape>; 2], sides: [Side; 2], sharp: bool) -> Option<
         }
         [TouchForm::Edged { .. }, TouchForm::Hollow] => corners_on(i, &[both[1].clone()], 1),
         [TouchForm::Hollow, TouchForm::Edged { .. }] => corners_on(j, &[both[0].clone()], 0),
-        [TouchForm::Smooth, TouchForm::Edged { parts, .. }] => smooth_on(parts, 1),
-        [TouchForm::Edged { parts, .. }, TouchForm::Smooth] => smooth_on(parts, 0),
-        [TouchForm::Smooth, TouchForm::Smooth] => smooth_on(&[both[1].clone()], 1),
+        [TouchForm::Smooth, TouchForm::Edged { parts, .. }] => smooth_on(parts, (both[0], sides)),
+        [TouchForm::Edged { parts, .. }, TouchForm::Smooth] => {
+            smooth_on(parts, (both[1], [sides[1], sides[0]]))
+        }
+        [TouchForm::Smooth, TouchForm::Smooth] => smooth_on(&[both[1].clone()], (both[0], sides)),
         _ => return None,
     })
 }
