@@ -228,3 +228,28 @@ def test_an_egg_stands_where_its_height_is_least() -> None:
     lowest = np.argmin(s * x + c * y)
     # upright: the lowest place is below the centre of mass
     assert (c * x - s * y)[lowest] == pytest.approx(0, abs=1e-4)
+
+
+def test_a_cam_with_lobes_tumbles_on_a_plate() -> None:
+    """A hollow cam is divided into its lobes, each an open curve with a contact."""
+    radius = "(0.3 + 0.05*cos(3*u))"
+    names = [f"lobe{k}" for k in range(3)]
+    curves = {}
+    for k, name in enumerate(names):
+        span = [TURN / 3 * k - 0.62, TURN / 3 * k + 0.62]
+        curves[name] = {"x": f"{radius}*cos(u)", "y": f"{radius}*sin(u)", "range": span}
+    m = kp.Model("lobes", gravity=(0, -G))
+    m.body("cam", mass=1, inertia=0.04, curves=curves)
+    m.ground.curves(plate={"line": ((9, 0), (-9, 0))})
+    for name in names:
+        m.contact(f"on_{name}", curves=[f"cam.{name}", "ground.plate"], restitution=0.4)
+    start = posed("cam", (0, 0.5, 0.1), (0.5, 0, 3))
+    sol = kp.dynamics(m, kp.assemble(m, set=start), t_end=1.5)
+    u = np.linspace(0, TURN, 4000)
+    rim = (0.3 + 0.05 * np.cos(3 * u)) * np.array([np.cos(u), np.sin(u)])
+    lowest = [placed([sol(t)[f"cam.{k}"] for k in POSES], rim)[1].min() for t in sol.t]
+    assert min(lowest) > -1e-7
+    gaps = np.min([sol[f"on_{name}.gap"] for name in names], axis=0)
+    assert_allclose(gaps, lowest, rtol=0, atol=1e-6)
+    assert sum(len(sol.events[f"on_{name}.hit"].t) for name in names) > 3
+    assert np.abs(sol.energy.balance).max() < 1e-8

@@ -279,13 +279,19 @@ impl<'a> StepPart<'a> {
         let times = |k: f64, of: Interval| Interval::new(k, k) * of;
         // of all places of body i
         let speed = x.largest_magnitude().hypot(y.largest_magnitude()) + spin * apart.size;
+        let turned = |(least, [of_i, of_j]): (f64, [f64; 2])| {
+            let from = least + apart.distance - half * speed;
+            let by = half * (speed / from + spin * (least / from).max(1.0));
+            (from > 0.0 && by <= of_j && by + half * spin <= of_i).then_some(by)
+        };
+        // an edge keeps its normal
+        let level = apart.level > half * speed + curve.moves(&apart, half * spin);
+        let turned = if level { Some(0.0) } else { apart.least.into_iter().find_map(turned) };
         let mut slope = fixed(speed);
-        let least = apart.least + apart.distance - half * speed;
-        if least > 0.0 {
-            let turning = speed / least + spin * (apart.least / least).max(1.0);
-            let moved = curve.moves(&apart, half * (turning + spin));
+        if let Some(by) = turned {
+            let moved = curve.moves(&apart, by + half * spin);
             let along = times(apart.away.x, x) + times(apart.away.y, y);
-            slope = slope.and(along + fixed(half * turning * speed + spin * moved));
+            slope = slope.and(along + fixed(by * speed + spin * moved));
         }
         let far = at_i.r.norm() + at_j.r.norm() + apart.size + apart.distance.abs();
         let value = Interval::new(apart.distance, apart.distance) + slope * fixed(half);

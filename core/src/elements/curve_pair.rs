@@ -100,6 +100,24 @@ impl Both<'_> {
         [self.fans[0].extreme(self.facing(theta)), self.fans[1].extreme(theta)]
     }
 
+    /// See [`PairApart::least`].
+    fn least(&self, theta: f64) -> [(f64, [f64; 2]); 2] {
+        let own = [self.fans[0].least_radius(self.facing(theta)), self.fans[1].least_radius(theta)];
+        // beyond the end of an arc there is a corner
+        let sure = own.map(|[radius, room]| if room.is_finite() { 0.0 } else { radius });
+        let [[i, room_i], [j, room_j]] = own;
+        [(i + j, [room_i, room_j]), (sure[0] + sure[1], [f64::INFINITY; 2])]
+    }
+
+    /// See [`PairApart::level`].
+    fn level(&self, meeting: &Meeting) -> f64 {
+        let (Patch::Edge(k), theta) = (meeting.patches[1], meeting.theta) else { return 0.0 };
+        let i = self.fans[0].extreme(self.facing(theta));
+        let ends = self.fans[1].edges[k].ends.into_iter().filter(|end| *end != Patch::Outside);
+        let from = ends.map(|end| self.apart(theta, [i, self.fans[1].at(end)])[1].abs());
+        from.fold(f64::INFINITY, f64::min)
+    }
+
     fn meeting(&self, theta: f64, extremes: [ExtremePlace; 2]) -> Meeting {
         let [apart, _] = self.apart(theta, extremes);
         let [i, j] = extremes;
@@ -216,8 +234,10 @@ pub struct PairApart {
     pub away: Local,
     /// The nearest place of body i, in its frame.
     pub place: Local,
-    /// The least sum of the radii of curvature.
-    pub least: f64,
+    /// The least sums of the radii of curvature, each with the angles of the normal in bodies i and j up to which it holds.
+    pub least: [(f64, [f64; 2]); 2],
+    /// How far the nearest place is from the ends of an edge of body j; zero on an arc or corner.
+    pub level: f64,
     /// The size of body i.
     pub size: f64,
     /// The direction -n in body i.
@@ -255,7 +275,8 @@ impl Rim {
             distance: meeting.apart,
             away: direction(meeting.theta),
             place: place.point,
-            least: both.fans[0].least_radius() + both.fans[1].least_radius(),
+            least: both.least(meeting.theta),
+            level: both.level(&meeting),
             size: fan.size,
             facing,
         })

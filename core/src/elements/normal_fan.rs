@@ -288,11 +288,18 @@ impl NormalFan {
         ExtremePlace { patch: Patch::Arc, u, point: terms[0], radius }
     }
 
-    /// The smallest radius of curvature; zero at a corner.
-    pub fn least_radius(&self) -> f64 {
-        match self.edges.is_empty() {
-            true => self.radii[0],
-            false => 0.0,
+    /// The smallest radius of curvature around a direction, and the angle up to which it is that.
+    pub fn least_radius(&self, theta: f64) -> [f64; 2] {
+        if self.arc.is_empty() || self.edges.is_empty() {
+            return [self.radii[0], f64::INFINITY];
+        }
+        let [first, last] = self.ends();
+        let along = turn(first, theta);
+        let room = along.min(last - first - along);
+        if room > 0.0 {
+            [self.radii[0], room]
+        } else {
+            [0.0, f64::INFINITY] // a corner
         }
     }
 
