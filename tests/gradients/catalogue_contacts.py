@@ -267,6 +267,64 @@ def bouncing_pin(of: Units) -> Made:
     return Made(m, measures, start, end=0.8, changes=True)
 
 
+def egg(of: Units) -> Made:
+    """An egg presses into a tilted floor, rolls and rubs on it."""
+    s, v = of.size, of.size * of.rate
+    m = of.model(
+        a=(0.4, s),
+        b=(0.05, s),
+        k=(1000, of.stiffness / s**0.5),
+        n=(1.5, 1),
+        c=(0.2, 1 / v),
+        mu=(0.3, 1),
+        v0=(0.05, v),
+        r=(0.05, s),
+        rise=(0.3, s),
+    )
+    m.ground.curves(floor={"line": [["5*rise", "rise"], ["-5*rise", "-rise"]]})
+    rim = {"rim": {"polar": "a + b*cos(u)"}}
+    of.disc(m, "egg", {"C": (0, 0)}, center=(0.03 * s, 0.01 * s), curves=rim)
+    m.contact(
+        "touch",
+        curves=["egg.rim", "ground.floor"],
+        radius="r",
+        stiffness="k",
+        exponent="n",
+        damping="c",
+        friction="mu",
+        velocity="v0",
+    )
+    start = {"egg.x": of.near(0.1) * s, "egg.y": 0.8 * s, "egg.vx": 0.5 * v, "egg.angle": 0.3}
+    measures = ["egg.x.final", "egg.y.final", "egg.omega.final", "energy.dissipated.final"]
+    return Made(m, [*measures, "touch.gap.final"], start, end=2.0, changes=True)
+
+
+def two_cams(of: Units) -> Made:
+    """An ellipse falls on a cam on a pivot, bounces and rests on it."""
+    s, v = of.size, of.size * of.rate
+    m = of.model(a=(0.3, s), b=(0.2, s), w=(0.8, s), h=(0.3, s), e=(0.4, 1))
+    m.ground.points(O=(0, 0))
+    x, y, whole = "w*cos(u)", "h*sin(u)", [0, "2*pi"]
+    cam = {"rim": {"x": x, "y": y, "range": whole, "periodic": True}}
+    of.disc(m, "cam", {"O": (0.02 * s, 0)}, curves=cam)
+    m.revolute("pin", "ground.O", "cam.O")
+    stiffness = of.torque * 20
+    m.torsion_spring("hold", "ground", "cam", stiffness=stiffness, free_angle=0)
+    x, y = "a*cos(u)", "b*sin(u)"
+    rim = {"rim": {"x": x, "y": y, "range": whole, "periodic": True}}
+    of.disc(m, "ball", {"C": (0, 0)}, curves=rim)
+    m.contact("touch", curves=["ball.rim", "cam.rim"], restitution="e")
+    start = {
+        "ball.x": 0.05 * s,
+        "ball.y": of.near(0.9) * s,
+        "ball.vx": 0.1 * v,
+        "ball.angle": 0.4,
+        "cam.angle": 0.0,
+    }
+    measures = ["ball.x.final", "ball.y.final", "ball.omega.final", "cam.angle.final"]
+    return Made(m, [*measures, "touch.gap.final"], start, end=1.3, changes=True)
+
+
 CONTACTS: list[Maker] = [
     touching,
     rolling_over,
@@ -277,4 +335,6 @@ CONTACTS: list[Maker] = [
     worn_pin,
     soft_pin,
     bouncing_pin,
+    egg,
+    two_cams,
 ]

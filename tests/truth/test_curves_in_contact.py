@@ -234,7 +234,6 @@ def test_a_block_slides_off_a_table(mass: float, size: float) -> None:
 
 #: Fields of a contact, and words of the error.
 REFUSED = [
-    ({"curves": ["part.egg", "ground.rim"]}, "polygon"),
     ({"curves": ["part.rim", "ground.rim"], "sides": ["left", "right"]}, "outside"),
     ({"curves": ["part.rim", "ground.rim"], "sides": ["right", "up"]}, "'right' or 'left'"),
     ({"curves": ["part.rim", "ground.rim"], "side": "left"}, "takes the place"),
@@ -254,7 +253,6 @@ def test_refused_contacts(fields: dict[str, Any], words: str) -> None:
     m = kp.Model("refused")
     m.ground.curves(rim={"polygon": SQUARE})
     curves: dict[str, Any] = {"rim": {"polygon": SQUARE}, "disc": {"circle": (0, 0, 1)}}
-    curves["egg"] = {"x": "2*cos(u)", "y": "sin(u)", "range": (0, "2*pi"), "periodic": True}
     m.body("part", mass=1, inertia=1, points={"P": (0, 0)}, curves=curves)
     m.contact("pair", **({"restitution": 0} | fields))
     with pytest.raises(kp.ModelError, match=words):

@@ -5,7 +5,7 @@
 //! the turning of the gradient (`elements::Apart`).
 
 use crate::elements::{
-    Apart, Behaviour, BodyId, Clearance, Coordinate, Followed, ForceElement, Way,
+    Apart, Behaviour, BodyId, Clearance, Coordinate, Followed, ForceElement, Rim, Side, Way,
 };
 use crate::expression::{Tape, Values};
 use crate::integrate::{Bounds, Step, StepPath};
@@ -229,6 +229,9 @@ impl<'a> StepPart<'a> {
                 Some(constant(sign) * (s - constant(limit)))
             }
             _ if law.is_some() => None,
+            Clearance::Curve { curve, side, radius, .. } if curve.mate.is_some() => {
+                Some(self.of_pair(curve, side, bodies)? - constant(radius))
+            }
             Clearance::Curve { i, curve, side, radius } => {
                 let ((moving, there), (frame, held)) = (at(0), at(1));
                 let p = moving.point(local(i.s)) - frame.r;
@@ -253,6 +256,46 @@ impl<'a> StepPart<'a> {
                 Some(constant(sign) * (found - constant(length)))
             }
         }
+    }
+
+    /// The distance of two curves. It changes as fast as the nearest place of body i moves along the normal. The normal
+    /// turns as fast as this place slides, over the sum of the radii of curvature and the distance.
+    fn of_pair(&self, curve: &Rim, side: Side, bodies: &[BodyId]) -> Option<Bounds> {
+        let [i, j] = [bodies[0], bodies[1]];
+        let (at_i, at_j) = (self.middle(i), self.middle(j));
+        let apart = curve.pair_apart(&at_i, &at_j, side)?;
+        let (moving, frame) = (self.pose(i), self.pose(j));
+        let constant = Bounds::constant;
+        let place = Local::new(constant(apart.place.x), constant(apart.place.y));
+        let p = moving.point(place) - frame.r;
+        let p = match j.is_ground() {
+            true => Local::new(p.x, p.y),
+            false => frame.rotation.inverse(p),
+        };
+        let [x, y] = [p.x.slope[0], p.y.slope[0]];
+        let spin = (moving.angle.slope[0] + -frame.angle.slope[0]).largest_magnitude();
+        let half = 0.5 * (self.span[1] - self.span[0]).abs();
+        let fixed = |by: f64| Interval::around(0.0, by);
+        let times = |k: f64, of: Interval| Interval::new(k, k) * of;
+        // of all places of body i
+        let speed = x.largest_magnitude().hypot(y.largest_magnitude()) + spin * apart.size;
+        let turned = |(least, [of_i, of_j]): (f64, [f64; 2])| {
+            let from = least + apart.distance - half * speed;
+            let by = half * (speed / from + spin * (least / from).max(1.0));
+            (from > 0.0 && by <= of_j && by + half * spin <= of_i).then_some(by)
+        };
+        // an edge keeps its normal
+        let level = apart.level > half * speed + curve.moves(&apart, half * spin);
+        let turned = if level { Some(0.0) } else { apart.least.into_iter().find_map(turned) };
+        let mut slope = fixed(speed);
+        if let Some(by) = turned {
+            let moved = curve.moves(&apart, by + half * spin);
+            let along = times(apart.away.x, x) + times(apart.away.y, y);
+            slope = slope.and(along + fixed(by * speed + spin * moved));
+        }
+        let far = at_i.r.norm() + at_j.r.norm() + apart.size + apart.distance.abs();
+        let value = Interval::new(apart.distance, apart.distance) + slope * fixed(half);
+        Some(Bounds { value: value + fixed(ROUNDING * far), slope: [slope] })
     }
 
     /// A distance during the motion of a point. `apart` gives the distance in the middle of the part.

@@ -14,6 +14,7 @@ use super::kinds::{self, CurveOn, Kind, Side, Source};
 use super::line_foot::{self, beyond, of_line, Straight, LEVEL};
 use super::near::{choose, Near};
 use super::nearest::{AlongCurve, CurveSearch};
+use super::normal_fan::NormalFan;
 use super::plane_curve::Curve;
 use crate::expression::Tape;
 use crate::math::{each, Listed, Local, Real};
@@ -31,22 +32,39 @@ pub struct Rim<S = f64> {
     searches: OnceLock<Vec<Arc<CurveSearch>>>,
     /// The latest searches of this element over any scalar and for any parameters.
     known: Arc<Mutex<Vec<Arc<CurveSearch>>>>,
+    /// The curve of body i that touches this one, in place of a point.
+    pub mate: Option<Box<Mate<S>>>,
+}
+
+/// A curve of body i that touches a curve of body j.
+#[derive(Clone, Debug)]
+pub struct Mate<S = f64> {
+    /// The curve.
+    pub rim: Rim<S>,
+    /// Its side on which body j lies.
+    pub side: Side,
 }
 
 impl<S> Rim<S> {
     /// A curve whose search is prepared at the first use.
     pub fn new(on: CurveOn<S>) -> Self {
-        Self { on, searches: OnceLock::new(), known: Arc::default() }
+        Self { on, searches: OnceLock::new(), known: Arc::default(), mate: None }
+    }
+
+    /// The same with a curve of body i.
+    pub fn touched_by(self, mate: Option<(CurveOn<S>, Side)>) -> Self {
+        let mate = mate.map(|(on, side)| Box::new(Mate { rim: Self::new(on), side }));
+        Self { mate, ..self }
     }
 
     /// Whether the nearest point is a formula of the coordinates.
     pub fn has_formulas(&self) -> bool {
-        matches!(self.on.curve, Curve::Line { .. } | Curve::Circle { .. })
+        matches!(self.on.curve, Curve::Line { .. } | Curve::Circle { .. }) && self.mate.is_none()
     }
 
     /// Whether the nearest point has a closed form.
     pub fn is_closed_form(&self) -> bool {
-        self.has_formulas() || matches!(self.on.curve, Curve::Polygon(_))
+        self.has_formulas() || matches!(self.on.curve, Curve::Polygon(_)) && self.mate.is_none()
     }
 }
 
@@ -81,11 +99,14 @@ impl Kind for rim {
     type Over<S> = Rim<S>;
     const SHAPE: Shape = Shape::Curve;
     fn read(source: &mut dyn Source, field: &Field) -> Option<Rim<Tape>> {
-        source.curve(field).map(Rim::new)
+        let on = source.curve(field)?;
+        Some(Rim::new(on).touched_by(source.mate()))
     }
     fn map<S, T>(value: &Rim<S>, f: &mut dyn FnMut(&S) -> T) -> Rim<T> {
         let known = Arc::clone(&value.known);
-        Rim { on: kinds::curve::map(&value.on, f), searches: OnceLock::new(), known }
+        let mate = value.mate.as_ref();
+        let mate = mate.map(|of| Box::new(Mate { rim: rim::map(&of.rim, f), side: of.side }));
+        Rim { on: kinds::curve::map(&value.on, f), searches: OnceLock::new(), known, mate }
     }
 }
 
@@ -208,9 +229,11 @@ impl<S: Real> Rim<S> {
         }
     }
 
-    /// The edge or corner of a polygon, or the part of a line, that is nearest to p. None for another curve.
+    /// The edge or corner of a polygon, or the part of a line, that is nearest to p. None for another curve, and for the
+    /// touch of two curves.
     pub(super) fn support(&self, p: Local<S>) -> Option<usize> {
         match &self.on.curve {
+            _ if self.mate.is_some() => None,
             Curve::Polygon(own) => {
                 Some(own.support(Local::new(p.x.in_lanes()[0], p.y.in_lanes()[0])))
             }
@@ -236,6 +259,17 @@ impl<S: Real> Rim<S> {
             Curve::Polygon(own) => own.is_edge(support),
             _ => support == LEVEL,
         }
+    }
+
+    /// Whether the numbers of its curves are the same in all lanes.
+    pub(super) fn is_one_curve(&self) -> bool {
+        self.searches().len() == 1 && self.mate.as_ref().is_none_or(|of| of.rim.is_one_curve())
+    }
+
+    /// The normals of the convex body of the curve.
+    pub(super) fn fan(&self, lane: usize, side: Side) -> &NormalFan {
+        let all = self.searches();
+        all[lane.min(all.len() - 1)].fan(side)
     }
 
     fn searches(&self) -> &[Arc<CurveSearch>] {
@@ -308,7 +342,8 @@ impl<S: Real> Rim<S> {
 }
 
 /// C and C′ at the foot of p on the cubic with these derivatives, or at the start of the cubic where `inner` ≤ 0.
-fn at_foot<S: Real>(
+#[inline(never)]
+pub(super) fn at_foot<S: Real>(
     [c0, c1, c2, c3]: [Local<S>; 4],
     p: Local<S>,
     inner: S,

@@ -43,6 +43,10 @@ pub trait Source {
     fn point(&mut self, field: &Field) -> Option<PointOn<Tape>>;
     /// A named curve of a body.
     fn curve(&mut self, field: &Field) -> Option<CurveOn<Tape>>;
+    /// The curve of body i that touches the curve of a contact in place of a point, and its side.
+    fn mate(&mut self) -> Option<(CurveOn<Tape>, Side)> {
+        None
+    }
     /// A position quantity.
     fn coordinate(&mut self, field: &Field) -> Option<Followed<Tape>>;
     /// A position quantity with its gradient.

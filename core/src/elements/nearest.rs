@@ -6,8 +6,11 @@
 //! of the depth of the tree. Newton's method on (C - p)·C′ = 0 begins at the nearest point of the chords.
 
 use super::contact::curvature;
+use super::kinds::Side;
+use super::normal_fan::NormalFan;
 use super::plane_curve::Curve;
 use crate::math::{Listed, Local};
+use std::sync::OnceLock;
 
 /// The smallest number of pieces, a power of two.
 const PIECES: usize = 512;
@@ -94,6 +97,8 @@ pub(super) struct CurveSearch {
     bends: Vec<[f64; 2]>,
     /// The root first, the children of k at 2k + 1 and 2k + 2.
     tree: Vec<Circle>,
+    /// The normals of its convex body, for a contact with another curve.
+    fan: OnceLock<NormalFan>,
 }
 
 fn apart(a: Local, b: Local) -> f64 {
@@ -151,7 +156,13 @@ impl CurveSearch {
             [all.into_iter().fold(0.0, f64::min), all.into_iter().fold(0.0, f64::max)]
         });
         let bends = bends.collect();
-        Self { numbers, points, range: [a, b], rise, bends, tree, curve }
+        let fan = OnceLock::new();
+        Self { numbers, points, range: [a, b], rise, bends, tree, fan, curve }
+    }
+
+    /// The normals of the convex body with the other bodies on this side of the curve, always the same one.
+    pub fn fan(&self, side: Side) -> &NormalFan {
+        self.fan.get_or_init(|| NormalFan::new(&self.curve, side))
     }
 
     /// The pieces within a distance of p, ascending.

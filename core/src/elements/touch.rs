@@ -14,6 +14,7 @@
 //! equation s = constant of the positions, also for a compliant contact, in which d < r. In a rigid contact d = r, and
 //! the pitch point is C(u).
 
+use super::curve_pair::BodySeen;
 use super::foot::{side_of, sign_of, support_of, Rim};
 use super::force_trait::Situation;
 use super::hertz::Depth;
@@ -68,7 +69,15 @@ impl<S: Real> CurveTouch<'_, S> {
 
     /// The nearest point of the curve.
     pub fn near(&self, i: &Pose<S>, j: &Pose<S>) -> Near<S> {
-        self.curve.near(self.center(i, j), self.side)
+        self.near_on(None, i, j)
+    }
+
+    /// The nearest point on the support on which the circle rests.
+    fn near_on(&self, support: Option<usize>, i: &Pose<S>, j: &Pose<S>) -> Near<S> {
+        match self.curve.mate {
+            Some(_) => self.curve.near_pair(&BodySeen::new(i, j), self.side),
+            None => self.curve.near_on(support, self.center(i, j), self.side),
+        }
     }
 
     /// The distance of the circle from the curve.
@@ -118,8 +127,7 @@ impl<S: Real> CurveTouch<'_, S> {
     /// The state with a place of action at a distance from the centre of the circle.
     fn at(&self, at: &Situation<'_, S>, place: impl Fn(&Near<S>) -> (S, S)) -> TouchPoint<S> {
         let (i, j) = (at.i(), at.j());
-        let center = self.center(&i.pose, &j.pose);
-        let near = self.curve.near_on(support_of_mode(at.mode), center, self.side);
+        let near = self.near_on(support_of_mode(at.mode), &i.pose, &j.pose);
         let (from_center, ratio) = place(&near);
         let away = j.pose.global(near.away);
         let along = away.perp().scale(self.turned());

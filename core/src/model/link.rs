@@ -29,6 +29,8 @@ pub(super) struct Pairing {
     pub radius: Option<Tape>,
     /// Added to the written radius.
     pub rounding: f64,
+    /// A smooth curve that touches in place of the point, and its side.
+    pub mate: Option<(CurveOn<Tape>, Side)>,
 }
 
 /// Reads the fields of one element.

@@ -2,7 +2,8 @@
 //!
 //! Such a contact consists of contacts of a point or circle with a curve. Of two polygons, each convex corner of one may
 //! touch each convex part of the other: the first touch of two polygons is that of a corner. A line is a polygon with
-//! two corners. A circle is the circle around its centre. All of these contacts have the name of the written contact.
+//! two corners. A circle is the circle around its centre. A smooth curve touches as a whole another smooth curve, or each
+//! convex part of a polygon. All of these contacts have the name of the written contact.
 
 use super::definition::Value;
 use super::link::{Linker, Pairing};
@@ -98,6 +99,7 @@ fn of_point(fields: &[Field], linker: &mut Linker<'_>) -> Option<Vec<Pairing>> {
         side: Side::Right,
         radius: None,
         rounding: 0.0,
+        mate: None,
     };
     soft_corners(fields, linker)?;
     Some(parts.into_iter().map(of).list())
@@ -124,8 +126,8 @@ fn of_curves(fields: &[Field], linker: &mut Linker<'_>) -> Option<Vec<Pairing>> 
     let sharp = matches!(linker.entry.get("radius"), None | Some(Value::Number(0.0)));
     let Some(pairings) = pairings([&both[0], &both[1]], sides_of, sharp) else {
         let message = format!(
-            "no contact of '{i}' with '{j}': of two curves, one must be a circle that is touched from outside, or \
-             both must be polygons, lines or circles, one of them touched from inside at most"
+            "no contact of '{i}' with '{j}': inside a circle, another circle, a polygon or a line may touch, but no other \
+             curve"
         );
         let hint = "write the other curve as a polygon; n corners on a curve with a radius of curvature r differ from \
                     it by 5 r/n² at most";
@@ -135,7 +137,10 @@ fn of_curves(fields: &[Field], linker: &mut Linker<'_>) -> Option<Vec<Pairing>> 
         let message = "a circle has its own radius; remove it".to_string();
         return linker.report(field(fields, "radius"), message, None);
     }
-    let polygon = |of: &Pairing| matches!(of.curve.curve, Curve::Polygon(_));
+    if pairings.iter().any(|of| of.mate.is_some()) {
+        firm(curves, [i, j], (&both, &pairings), linker)?;
+    }
+    let polygon = |of: &Pairing| matches!(of.curve.curve, Curve::Polygon(_)) && of.mate.is_none();
     if pairings.iter().any(|of| of.radius.is_none() && polygon(of)) {
         soft_corners(fields, linker)?;
     }
@@ -179,6 +184,29 @@ fn sides_of(
         }
     }
     Some(both_sides)
+}
+
+/// Refuses a compliant contact of two curves whose bodies are not known behind the places that press: where a body is
+/// thin or divided, a depth would push it out at its back.
+fn firm(
+    curves: &Field,
+    names: [&str; 2],
+    (both, pairings): (&[CurveOn<Tape>; 2], &[Pairing]),
+    linker: &mut Linker<'_>,
+) -> Option<()> {
+    if linker.entry.get("restitution").is_some() {
+        return Some(());
+    }
+    let open = |on: &CurveOn<Tape>| !on.curve.periodic() && !matches!(on.curve, Curve::Line { .. });
+    let message = match both.iter().position(open) {
+        Some(k) => format!("'{}' is open, and its depth is not known behind it", names[k]),
+        None if pairings.len() > 1 => {
+            "the polygon has inward corners, at which two of its parts would press".to_string()
+        }
+        None => return Some(()),
+    };
+    let hint = "give restitution in place of stiffness, or a closed curve and polygons without inward corners";
+    linker.report(curves, message, Some(hint.to_string()))
 }
 
 /// Refuses a compliant contact of sharp corners, in which the force would jump from one edge to another.
@@ -248,6 +276,23 @@ impl TouchForm {
     }
 }
 
+/// The pairings of a smooth curve with parts of another one. The smooth curve touches in place of a point.
+fn smooth_on(
+    parts: &[CurveOn<Tape>],
+    (own, [own_side, side]): (&CurveOn<Tape>, [Side; 2]),
+) -> Vec<Pairing> {
+    let zero = || Tape::from(0.0);
+    let one = |curve: &CurveOn<Tape>| Pairing {
+        point: PointOn { body: own.body, s: Local { x: zero(), y: zero() } },
+        curve: curve.clone(),
+        side,
+        radius: None,
+        rounding: 0.0,
+        mate: Some((own.clone(), own_side)),
+    };
+    parts.iter().map(one).list()
+}
+
 /// All pairings in which two curves may touch. None if the curves are refused.
 fn pairings(both: [&CurveOn<Tape>; 2], sides: [Side; 2], sharp: bool) -> Option<Vec<Pairing>> {
     // a sharp corner does not touch another one
@@ -264,6 +309,7 @@ fn pairings(both: [&CurveOn<Tape>; 2], sides: [Side; 2], sharp: bool) -> Option<
             side: sides[k],
             radius: Some(radius.clone()),
             rounding: 0.0,
+            mate: None,
         };
         match other {
             TouchForm::Edged { parts, .. } => parts.iter().map(one).list(),
@@ -278,6 +324,7 @@ fn pairings(both: [&CurveOn<Tape>; 2], sides: [Side; 2], sharp: bool) -> Option<
             side: sides[k],
             radius: None,
             rounding: *rounding,
+            mate: None,
         };
         parts.iter().flat_map(|part| corners.iter().map(move |of| (part, of))).map(one).list()
     };
@@ -293,6 +340,11 @@ fn pairings(both: [&CurveOn<Tape>; 2], sides: [Side; 2], sharp: bool) -> Option<
         }
         [TouchForm::Edged { .. }, TouchForm::Hollow] => corners_on(i, &[both[1].clone()], 1),
         [TouchForm::Hollow, TouchForm::Edged { .. }] => corners_on(j, &[both[0].clone()], 0),
+        [TouchForm::Smooth, TouchForm::Edged { parts, .. }] => smooth_on(parts, (both[0], sides)),
+        [TouchForm::Edged { parts, .. }, TouchForm::Smooth] => {
+            smooth_on(parts, (both[1], [sides[1], sides[0]]))
+        }
+        [TouchForm::Smooth, TouchForm::Smooth] => smooth_on(&[both[1].clone()], (both[0], sides)),
         _ => return None,
     })
 }

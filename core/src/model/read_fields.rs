@@ -6,7 +6,7 @@ use super::scope::Reach;
 use super::unit_check::ANY_UNIT;
 use crate::elements::{
     types_that_rub, Acted, Bearing, BodyId, CurveOn, Default, Field, Followed, Group, JointId,
-    PointOn, QuantityKind, Source,
+    PointOn, QuantityKind, Side, Source,
 };
 use crate::expression::Tape;
 use crate::math::{Listed, Local};
@@ -60,6 +60,10 @@ impl Source for Linker<'_> {
         }
         let text = self.text(field)?;
         self.curve_named(field, text)
+    }
+
+    fn mate(&mut self) -> Option<(CurveOn<Tape>, Side)> {
+        self.pairing.as_ref().and_then(|of| of.mate.clone())
     }
 
     fn coordinate(&mut self, field: &Field) -> Option<Followed<Tape>> {

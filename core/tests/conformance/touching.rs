@@ -1,14 +1,15 @@
 //! Samples of stops and contacts.
 
-use crate::samples::{curve, on};
+use crate::samples::{curve, formula, on};
 use kempe::elements::forces::{
     ClearanceJoint, Contact, ContactFriction, ContactSticking, Resting, Stop,
 };
 use kempe::elements::{
-    BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, ForceElement, NormalLaw, Rim,
-    Side,
+    BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, ForceElement, NormalLaw, PointOn,
+    Rim, Side,
 };
 use kempe::math::Local;
+use std::f64::consts::TAU;
 
 pub fn stops() -> Vec<ForceElement> {
     let mut all = Vec::new();
@@ -59,8 +60,58 @@ pub fn contacts() -> Vec<ForceElement> {
         }
     }
     all.extend(rubbing_contacts());
+    all.extend(pressing_curves());
     all.extend([(0.5, false), (4.0, false), (4.0, true)].map(pin_in_bush));
     all
+}
+
+/// An ellipse on body i.
+fn ellipse() -> CurveOn {
+    let curve = formula(["a*cos(u)", "b*sin(u)"], [0.0, TAU], true, &[5.0, 4.0]);
+    CurveOn { body: BodyId(1), curve }
+}
+
+/// Curves of body j that bulge outward, with the side outside: an egg, an arc, a polygon and a line.
+fn bulging() -> Vec<(CurveOn, Side)> {
+    let egg = ["(3 + a*cos(u))*cos(u)", "(3 + a*cos(u))*sin(u)"];
+    let egg = CurveOn { body: BodyId(2), curve: formula(egg, [0.0, TAU], true, &[0.4, 0.0]) };
+    let arc = formula(["a*cos(u)", "-b*sin(u)"], [-0.5, 1.5], false, &[3.0, 2.0]);
+    let arc = CurveOn { body: BodyId(2), curve: arc };
+    vec![
+        (egg, Side::Right),
+        (arc, Side::Left),
+        (curve("polygon"), Side::Right),
+        (curve("line"), Side::Left),
+    ]
+}
+
+/// Two smooth curves, or one on a polygon or line, that press at some of the random places.
+fn pressing_curves() -> Vec<ForceElement> {
+    let of = |(on, side): (CurveOn, Side)| {
+        let of_points = Contact {
+            i: PointOn { body: BodyId(1), s: Local::zero() },
+            curve: Rim::new(on).touched_by(Some((ellipse(), Side::Right))),
+            radius: 0.3,
+            side,
+            stiffness: Some(1.0),
+            exponent: 1.5,
+            damping: 0.3,
+            law: NormalLaw::HuntCrossley,
+            young: None,
+            poisson: None,
+            width: None,
+            friction: 0.2,
+            r#static: None,
+            velocity: Some(0.5),
+            restitution: None,
+            rest_speed: 1e-9,
+            wear: 0.4,
+            curves: (),
+            sides: (),
+        };
+        ForceElement::Contact(of_points)
+    };
+    bulging().into_iter().map(of).collect()
 }
 
 /// A pin in a bush that touches at some of the random places.
@@ -125,12 +176,19 @@ pub fn resting() -> Vec<Constraint> {
         let curve = Rim::new(curve(form));
         Constraint::Resting(Resting { i: on(1, 0.2, -0.4), curve, radius: 0.3, side })
     };
-    vec![
+    let pair = |(on, side): (CurveOn, Side)| {
+        let curve = Rim::new(on).touched_by(Some((ellipse(), Side::Right)));
+        let i = PointOn { body: BodyId(1), s: Local::zero() };
+        Constraint::Resting(Resting { i, curve, radius: 0.3, side })
+    };
+    let mut all = vec![
         of("circle", Side::Left),
         of("line", Side::Right),
         of("points", Side::Right),
         of("polygon", Side::Right),
-    ]
+    ];
+    all.extend(bulging().into_iter().map(pair));
+    all
 }
 
 /// All equations of contacts.

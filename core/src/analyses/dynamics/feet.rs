@@ -44,7 +44,7 @@ impl Feet {
 fn circle(item: &ForceItem) -> Option<(&Rim, f64)> {
     match item.element.clearances()[..] {
         [Clearance::Curve { curve, radius, .. }] if radius > 0.0 && item.law.is_none() => {
-            (!curve.is_closed_form()).then_some((curve, radius))
+            (!curve.is_closed_form() && curve.mate.is_none()).then_some((curve, radius))
         }
         _ => None,
     }

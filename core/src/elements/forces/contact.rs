@@ -1,7 +1,8 @@
 //! Contact of a point or circle of body i with a curve of body j.
 //!
 //! The gap is the distance of Pᵢ from the nearest point C(u) of the curve, minus the radius. The distance is positive
-//! on the `side` of the curve. `elements/pressing.rs` contains the forces.
+//! on the `side` of the curve. `elements/pressing.rs` contains the forces. A smooth curve of body i may touch in place of
+//! the point, see `elements/curve_pair.rs`.
 //!
 //! With a coefficient of restitution e, there is no depth. If the gap closes at the rate ġ, it opens at the rate -e ġ
 //! after an impact of the whole mechanism, or the bodies rest on each other, held by the equation gap(q) = 0.
@@ -130,6 +131,9 @@ impl Presses for Contact {
     }
 
     fn symbols(e: &Contact) -> Vec<SceneSymbol> {
+        if e.curve.mate.is_some() {
+            return Vec::new(); // its curves are drawn
+        }
         let (i, j) = (SymbolEnd::point(&e.i), SymbolEnd::body(e.curve.on.body));
         vec![match e.radius > 0.0 {
             true => SceneSymbol::new(Mark::Round, i, j).to_scale([e.radius, 0.0]),
@@ -140,6 +144,9 @@ impl Presses for Contact {
     fn fault(e: &Contact) -> Option<(&'static str, String)> {
         if e.radius < 0.0 {
             return Some(("radius", "must not be negative".to_string()));
+        }
+        if e.curve.mate.is_some() {
+            return e.curve.fault_of_pair(e.side).map(|message| ("curves", message));
         }
         let curve = &e.curve.on.curve;
         let searched = curve.fault().is_none() && !e.curve.is_closed_form();
