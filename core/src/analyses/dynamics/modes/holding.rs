@@ -78,7 +78,7 @@ pub(super) fn decide(
     candidates.order_by_key(|k| (ended(k), !contact(k), *k));
     let ended: Vec<usize> = candidates.iter().copied().filter(ended).list();
     let mut modes = hold(model, place, modes, (&candidates, &ended))?;
-    give_slack(model, place, touching, &mut modes);
+    give_slack(model, place, (before, touching), &mut modes);
     for own in &mut modes {
         let at = all.iter().position(|k| *k == own.force);
         own.held_by = at.map(|at| holders[at]).unwrap_or_default();
@@ -115,7 +115,12 @@ fn onset(model: &Model, place: &StateAt<'_>, force: usize) -> f64 {
 }
 
 /// Sets the slack of contacts that touch and of forces that hold, from the rounding errors of gaps and forces.
-fn give_slack(model: &Model, place: &StateAt<'_>, touching: &[usize], modes: &mut [ForceMode]) {
+fn give_slack(
+    model: &Model,
+    place: &StateAt<'_>,
+    (before, touching): (&[ForceMode], &[usize]),
+    modes: &mut [ForceMode],
+) {
     let rates = place.gap_rates(model, touching);
     let gaps = place.thresholds(model, touching);
     let phase = model.in_modes(modes);
@@ -123,11 +128,18 @@ fn give_slack(model: &Model, place: &StateAt<'_>, touching: &[usize], modes: &mu
     for own in modes {
         let at = touching.iter().position(|k| *k == own.force);
         own.slack = match (own.mode, at) {
-            // a gap that was held is not exactly zero
             (Mode::Free, Some(at)) => {
                 let slow = rates[at] <= StateAt::slow(model, own.force);
                 let rounding = if slow { place.rounding(model, own.force) } else { 0.0 };
-                rounding + (-gaps[at]).max(0.0)
+                let depth = (-gaps[at]).max(0.0);
+                match before.iter().find(|of| of.force == own.force) {
+                    // bounces must not become deeper
+                    Some(old) if old.mode == Mode::Free && slow => {
+                        depth.max(rounding).max(old.slack)
+                    }
+                    // a gap that was held is not exactly zero
+                    _ => depth + rounding,
+                }
             }
             (Mode::Holds(_), _) => noise,
             (Mode::Idle, Some(_)) => place.play(model, own.force),
