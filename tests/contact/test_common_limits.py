@@ -1,4 +1,4 @@
-"""Contacts whose friction reaches its limit at one time, and corners that bounce until they rest."""
+"""Contacts whose friction reaches its limit at one time, and corners that bounce to rest."""
 
 import kempe as kp
 import numpy as np

@@ -16,6 +16,10 @@ use crate::solve::{is_positive, solve_dense, Eigen};
 const NONE: f64 = 1e-14;
 /// Residual force below which Newton steps only reduce rounding errors.
 const SMALL: f64 = 1e-9;
+/// Largest scaled step of Newton's method that may be left at rest.
+const REST: f64 = 1e-6;
+/// Force along an eigenvector of the stiffness that counts as rounding error, relative to the largest single force.
+const NOISE: f64 = 1e-13;
 /// Scaled displacement whose force counts as a single force, so that [`SMALL`] is above the rounding errors of the
 /// coordinates.
 const DISPLACEMENT: f64 = 1e-5;
@@ -29,6 +33,8 @@ const STEPS: usize = 500;
 const ROUNDS: usize = 4;
 /// Fraction of the predicted change of energy that a step must achieve.
 const ENOUGH: f64 = 1e-4;
+/// Reduction of the residual force by a short step that shows convergence.
+const CONVERGES: f64 = 0.1;
 /// An eigenvalue of the stiffness below this part of the largest counts as zero.
 pub(super) const ZERO: f64 = 1e-11;
 /// Scaled displacement from an unstable position, and the largest number of such displacements.
@@ -113,6 +119,9 @@ impl<'s, 'a> RestSearch<'s, 'a> {
             let size = relative(&local, &place);
             if size <= SMALL {
                 (place, local) = self.polished(place, local)?;
+            }
+            // a light body may be far from rest while its forces are small beside those of others
+            if size <= SMALL && self.left(&place, &local) <= REST {
                 let down = down(&local, &place).filter(|_| !self.nearest && !at_start);
                 let Some(direction) = down.filter(|_| pushes < PUSHES) else {
                     return Ok((place, true));
@@ -189,7 +198,9 @@ impl<'s, 'a> RestSearch<'s, 'a> {
                 let predicted = dot(&local.gradient, p);
                 let change = self.statics.energy_change(place, &next);
                 let rounding = predicted.abs() < 1e-13 * place.scale;
-                change <= ENOUGH * predicted || (rounding && after < before)
+                // near a minimum, the change of the energy is lost in rounding errors before the force is
+                let converges = after < CONVERGES * before && self.statics.largest(&dq) < PUSH;
+                change <= ENOUGH * predicted || (rounding && after < before) || converges
             }
         };
         Ok(better.then_some((next, there)))
@@ -212,8 +223,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
     ) -> Result<(StaticState, LocalForces), Reason> {
         for _ in 0..8 {
             let before = relative(&local, &place);
-            let Some(p) = solved(&local.stiffness, &local.gradient) else { break };
-            let dq = local.basis.extend(&p);
+            let dq = local.basis.extend(&self.newton(&place, &local));
             let step = self.statics.largest(&dq);
             if step > FIRST || before <= NONE && step < 1e-15 {
                 break;
@@ -228,6 +238,19 @@ impl<'s, 'a> RestSearch<'s, 'a> {
             self.steps += 1;
         }
         Ok((place, local))
+    }
+
+    /// The step of Newton's method. Where the stiffness is almost singular, it is the step along its eigenvectors with
+    /// forces above rounding errors.
+    fn newton(&self, place: &StaticState, local: &LocalForces) -> Vec<f64> {
+        let near = |p: &Vec<f64>| self.statics.largest(&local.basis.extend(p)) <= FIRST;
+        let step = solved(&local.stiffness, &local.gradient).filter(near);
+        step.unwrap_or_else(|| resolved(local, place.scale))
+    }
+
+    /// The largest scaled coordinate of the step of Newton's method.
+    fn left(&self, place: &StaticState, local: &LocalForces) -> f64 {
+        self.statics.largest(&local.basis.extend(&self.newton(place, local)))
     }
 
     /// A position of lower energy beside an unstable equilibrium, if there is one.
@@ -295,6 +318,23 @@ fn solved(stiffness: &[f64], gradient: &[f64]) -> Option<Vec<f64>> {
     let mut p: Vec<f64> = gradient.iter().map(|g| -g).list();
     let solved = solve_dense(&mut stiffness.to_vec(), &mut p);
     (solved && p.iter().all(|x| x.is_finite())).then_some(p)
+}
+
+/// The Newton step along the eigenvectors of the stiffness whose forces are above rounding errors.
+fn resolved(local: &LocalForces, scale: f64) -> Vec<f64> {
+    let f = local.gradient.len();
+    let eigen = Eigen::of(&local.stiffness, f);
+    let stiffest = eigen.values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let mut p = vec![0.0; f];
+    for (value, vector) in eigen.values.iter().zip(&eigen.vectors) {
+        let force = dot(vector, &local.gradient);
+        if force.abs() > NOISE * scale.max(DISPLACEMENT * stiffest) {
+            let least = f64::EPSILON * stiffest;
+            let part = -force / value.abs().max(least).copysign(*value);
+            p.iter_mut().zip(vector).for_each(|(p, v)| *p += part * v);
+        }
+    }
+    p
 }
 
 /// The Newton step with the eigenvalues of the stiffness replaced by their magnitudes.

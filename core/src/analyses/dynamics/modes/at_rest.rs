@@ -44,7 +44,7 @@ pub fn friction_modes(
         if !slow && !drivers.iter().any(|own| drivers_rest(model, *own, *t, q)) {
             return Ok(Vec::new());
         }
-        let found = holding::decide(model, &mut place, &[], (&[], (&[], &[]), None))?;
+        let found = holding::decide(model, &mut place, &[], (&[], None), (&[], &[]))?;
         Ok(found.into_iter().filter(|of| all.contains(&of.force)).collect())
     };
     t.iter().enumerate().map(own).collect()

@@ -29,13 +29,14 @@ const MOST_TRIED: usize = 1500;
 /// Forces below this fraction of the forces of a state are noise.
 const NOISE: f64 = 1e-13;
 
-/// The modes of all forces that have modes. The arguments include the contacts that touch, the forces whose modes
-/// ended, those that have ceased to hold at this time, and, if the velocities jumped, the largest rate before the jump.
+/// The modes of all forces that have modes. The arguments include the contacts that touch, the largest rate before a
+/// jump if the velocities jumped, the forces whose modes ended, and those that have ceased to hold at this time.
 pub(super) fn decide(
     model: &Model,
     place: &mut StateAt<'_>,
     before: &[ForceMode],
-    (touching, (fired, ceased), jumped): (&[usize], (&[usize], &[usize]), Option<f64>),
+    (touching, jumped): (&[usize], Option<f64>),
+    (fired, ceased): (&[usize], &[usize]),
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
     let rest = at_rest(model, place, before, touching)?;
     impacts::halt(model, place, &rest)?;

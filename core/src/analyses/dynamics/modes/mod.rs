@@ -75,7 +75,7 @@ pub(super) fn settle(
     let Hits { hits, impulses, impacts, couples, ended } =
         impacts::resolve(model, place, &touching, law)?;
     let jumped = (!hits.is_empty()).then_some(fastest);
-    let mut modes = holding::decide(model, place, before, (&touching, at_once, jumped))?;
+    let mut modes = holding::decide(model, place, before, (&touching, jumped), at_once)?;
     companions::check(model, place, &modes)?;
     keep_closed(model, place, &touching, &mut modes);
     let collapsed = !ended.is_empty();
