@@ -84,13 +84,7 @@ pub(super) fn decide(
         let at = all.iter().position(|k| *k == own.force);
         own.held_by = at.map(|at| holders[at]).unwrap_or_default();
     }
-    for (own, threshold) in modes.iter_mut().zip(&thresholds) {
-        let Mode::Slides(sign) = own.mode else { continue };
-        if sign * threshold <= STILL * speed {
-            // a speed that counts as zero may have the opposite direction, and at rest it consists of rounding errors
-            own.slack = (-2.0 * sign * threshold).max(NOISE * speed);
-        }
-    }
+    give_speed_slack(&mut modes, &thresholds, speed);
     Ok(modes)
 }
 
@@ -146,6 +140,17 @@ fn give_slack(
             (Mode::Idle, Some(_)) => place.play(model, own.force),
             _ => own.slack,
         };
+    }
+}
+
+/// Sets the slack of friction that begins to slide, for speeds that are small beside that of the mechanism.
+fn give_speed_slack(modes: &mut [ForceMode], thresholds: &[f64], speed: f64) {
+    for (own, threshold) in modes.iter_mut().zip(thresholds) {
+        let Mode::Slides(sign) = own.mode else { continue };
+        if sign * threshold <= STILL * speed {
+            // a speed that counts as zero may have the opposite direction, and at rest it consists of rounding errors
+            own.slack = (-2.0 * sign * threshold).max(NOISE * speed);
+        }
     }
 }
 
