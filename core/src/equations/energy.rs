@@ -19,6 +19,17 @@ pub fn kinetic<S: Real>(model: &Model<S>, motions: &[Motion<S>]) -> S {
     S::constant(0.5) * twice
 }
 
+/// The largest force of inertia of a body, N, where `motions` have accelerations in place of rates. A couple J α counts
+/// as a force at the arm `size`.
+pub fn largest_inertia(model: &Model, motions: &[Motion<f64>], size: f64) -> f64 {
+    let of = |(body, motion): (&Body<f64>, &Motion<f64>)| {
+        let Twist { velocity, omega } = motion.twist;
+        let velocity = velocity + motion.pose.global(body.center).perp().scale(omega);
+        (body.mass * velocity.norm()).max(body.inertia * omega.abs() / size)
+    };
+    moving(model, motions).map(of).fold(0.0, f64::max)
+}
+
 /// Potential energy of gravity (zero at the global origin) and of the forces, J.
 pub fn potential<S: Real>(model: &Model<S>, motions: &Motions<S>, z: &[S], t: S) -> S {
     let mut sum = S::zero();

@@ -111,7 +111,7 @@ impl StateAt<'_> {
 
     /// A force that is large compared with rounding errors of the forces of a phase: the largest of the kinetic energy
     /// per size, the multipliers, the reserves of the forces that hold, and the force that gravity or the accelerations
-    /// need on the heaviest body. If all of them are zero, the force on this body for one size per s².
+    /// need. If all of them are zero, the force on the heaviest body for one size per s².
     pub fn force_scale(&self, phase: &Model, solved: Option<&Workspace>) -> f64 {
         let ([q, v, z], size) = (self.state(phase), size(phase));
         let motions = Motions::at(&phase.layout, q, v);
@@ -123,8 +123,8 @@ impl StateAt<'_> {
             let holds = |k: &usize| matches!(phase.forces[*k].mode, Mode::Holds(_));
             let held = (0..phase.forces.len()).filter(holds);
             let reserves = held.map(|k| forces::reserve(phase, k, &motions, acting)).list();
-            let scaled = solved.a().iter().zip(column_scales(phase)).map(|(a, scale)| a / scale);
-            let inertial = heaviest * size * largest(&scaled.list());
+            let moved = Motions::at(&phase.layout, q, solved.a());
+            let inertial = energy::largest_inertia(phase, &moved, size);
             most = [largest(&reserves), inertial, largest(solved.lam())]
                 .into_iter()
                 .fold(most, f64::max);
