@@ -89,7 +89,7 @@ def counted(path: Path) -> int:
 @pytest.mark.alone
 @pytest.mark.parametrize("sign", [signal.SIGINT, signal.SIGKILL])
 def test_a_stopped_search_continues(sign: int, folder: Path) -> None:
-    written(folder, SECTION.replace("starts = 2", "starts = 24"))
+    written(folder, SECTION.replace("starts = 2", "starts = 16"))
     words = [sys.executable, "-m", "kempe", "optimize", "lamp.toml"]
     with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as child:
         while child.poll() is None and counted(HERE / "optimize.db") < 15:
