@@ -119,8 +119,6 @@ def test_a_pin_of_cylinders_rubs() -> None:
 def test_what_is_refused() -> None:
     steel: dict[str, Any] = {**STEEL, "width": 0.02}
     for given, words in [
-        ({"law": "lankarani_nikravesh", "stiffness": 1e8}, r"law: .* not offered: .* damping = 3"),
-        ({"law": "flores", "stiffness": 1e8}, "which no force keeps"),
         ({"stiffness": 1e8, "young": 1e9}, 'young: belongs to law = "hertz"'),
         ({**STEEL}, "width: missing"),
         ({**steel, "poisson": 0.6}, "poisson: must be from 0 to 0.5"),

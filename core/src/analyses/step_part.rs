@@ -200,7 +200,9 @@ impl<'a> StepPart<'a> {
     /// The function 1 + c δ̇ of a compliant contact, which is 1 where the bodies are apart.
     pub fn pushes(&self, force: usize, place: usize) -> Option<Bounds> {
         let behaviour = self.model.forces[force].element.behaviour();
-        let Some(Behaviour::Compliant { damping, .. }) = behaviour else { return None };
+        let Some(Behaviour::Compliant { damping: Some(damping), .. }) = behaviour else {
+            return None;
+        };
         if damping == 0.0 {
             return Some(Bounds::one());
         }

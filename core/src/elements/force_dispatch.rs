@@ -47,8 +47,11 @@ macro_rules! forces {
             &[]
         }
 
-        /// The first-order states of a force of a type for which the named fields are `given`.
-        pub fn states_of(kind: &str, given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
+        /// The first-order [states](Force::states) of a force of a type.
+        pub fn states_of<'a>(
+            kind: &str,
+            given: &dyn Fn(&str) -> Option<&'a str>,
+        ) -> &'static [OwnState] {
             $($(#[$on])* {
                 if kind == <$Name>::NAME {
                     return <$Name as Force>::states(given);
@@ -240,6 +243,10 @@ macro_rules! forces {
                     (Mode::Holds(side), _) => S::constant(side.signum()) * at.multiplier,
                     _ => S::constant(f64::INFINITY),
                 }
+            }
+            /// Whether its last state is the rate with which its gap closed when the contact began.
+            pub fn keeps_speed(&self) -> bool {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::keeps_speed(e),)+ }
             }
             /// Whether friction acts in one direction only.
             pub fn only_pushes(&self) -> bool {

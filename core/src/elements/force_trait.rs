@@ -157,9 +157,10 @@ pub trait Force: Element {
         let _ = (e, at, out);
     }
 
-    /// The first-order states of an element for which the named fields are `given` and not zero.
+    /// The first-order states of an element. `given` has the text of a named field: empty for one that is no text, and
+    /// None for one that is absent or zero.
     #[inline]
-    fn states(given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
+    fn states<'a>(given: &dyn Fn(&str) -> Option<&'a str>) -> &'static [OwnState] {
         let _ = given;
         &[]
     }
@@ -272,6 +273,13 @@ pub trait Force: Element {
     fn clearances(e: &Self::Over<f64>) -> Vec<Clearance<'_>> {
         let _ = e;
         Vec::new()
+    }
+
+    /// Whether the last state of the element is the rate with which its gap closed when the contact began.
+    #[inline]
+    fn keeps_speed<S>(e: &Self::Over<S>) -> bool {
+        let _ = e;
+        false
     }
 
     /// The position quantity that the element follows.

@@ -2,6 +2,12 @@
 //!
 //! The elastic part E is k δⁿ, with the potential k δⁿ⁺¹/(n + 1), or that of two [`Cylinders`]. The rest of N is the damping part. It dissipates energy in
 //! both directions, and cancels the elastic part where 1 + c δ̇ < 0. With c in s/m and k in N/mⁿ, N is in N.
+//!
+//! For a restitution e, c follows from the speed v with which the contact began, which is then a state of the element:
+//! c v = 3 (1 - e²)/4 (Lankarani and Nikravesh, *A Contact Force Model With Hysteresis Damping for Impact Analysis of
+//! Multibody Systems*, J. Mech. Des. 112 (1990) 369) or c v = 8 (1 - e)/(5 e) (Flores, Machado, Silva and Martins, *On
+//! the continuous contact force models for soft materials in multibody dynamics*, Multibody Syst. Dyn. 25 (2011) 357).
+//! Without a known speed, v = 0, there is no damping.
 
 use super::cylinders::Cylinders;
 use super::force_trait::Situation;
@@ -28,12 +34,34 @@ pub(super) enum Elastic<S> {
 pub(super) struct Hertz<S> {
     /// The elastic part.
     pub elastic: Elastic<S>,
+    /// c, s/m, or c v.
+    pub damping: ContactDamping<S>,
+}
+
+/// The damping of the law.
+#[derive(Clone, Copy)]
+pub(super) enum ContactDamping<S> {
     /// c, s/m.
-    pub damping: S,
+    Constant(S),
+    /// c v.
+    BySpeed(S),
+}
+
+impl<S: Real> ContactDamping<S> {
+    /// c.
+    fn factor(self, at: &Situation<'_, S>) -> S {
+        match (self, at.z.last()) {
+            (Self::Constant(c), _) => c,
+            (Self::BySpeed(c), Some(speed)) => S::select(*speed, c / *speed, S::zero()),
+            (Self::BySpeed(_), None) => S::zero(),
+        }
+    }
 }
 
 /// The fields of the law in an element.
 pub struct Compliance<S> {
+    /// The law.
+    pub law: NormalLaw,
     /// k, N/mⁿ.
     pub stiffness: Option<S>,
     /// n.
@@ -46,6 +74,15 @@ pub struct Compliance<S> {
     pub poisson: Option<S>,
     /// Their width, m.
     pub width: Option<S>,
+    /// e of a law that [keeps the speed](NormalLaw::keeps_speed), or of a rigid contact.
+    pub restitution: Option<S>,
+}
+
+impl NormalLaw {
+    /// Whether the damping depends on the speed with which the contact began.
+    pub fn keeps_speed(self) -> bool {
+        matches!(self, Self::LankaraniNikravesh | Self::Flores)
+    }
 }
 
 impl<S: Real> Compliance<S> {
@@ -56,7 +93,18 @@ impl<S: Real> Compliance<S> {
             Elastic::Cylinders(Cylinders::new([young, poisson, width], apart))
         });
         let power = self.stiffness.map(|k| Elastic::Power(k, self.exponent));
-        Some(Hertz { elastic: cylinders.or(power)?, damping: self.damping })
+        Some(Hertz { elastic: cylinders.or(power)?, damping: self.damping() })
+    }
+
+    fn damping(&self) -> ContactDamping<S> {
+        let (e, of) = (self.restitution, S::constant);
+        match (self.law, e) {
+            (NormalLaw::LankaraniNikravesh, Some(e)) => {
+                ContactDamping::BySpeed(of(0.75) * (S::one() - e * e))
+            }
+            (NormalLaw::Flores, Some(e)) => ContactDamping::BySpeed(of(1.6) * (S::one() - e) / e),
+            _ => ContactDamping::Constant(self.damping),
+        }
     }
 }
 
@@ -98,7 +146,7 @@ impl<S: Real> Hertz<S> {
             return None;
         }
         let elastic = at.choose(first, depth.value, self.elastic(depth.value), S::zero());
-        let factor = self.damping * depth.rate;
+        let factor = self.damping.factor(at) * depth.rate;
         let damping = at.choose(first + 1, S::one() + factor, elastic * factor, -elastic);
         Some(Normal { elastic, damping })
     }
@@ -116,10 +164,18 @@ impl<S: Real> Hertz<S> {
     }
 
     /// The functions of the switches: onset and release, and the sign of 1 + c δ̇ while in contact.
-    pub fn switches(&self, depth: Depth<S>, out: &mut [S]) {
-        let factor = S::one() + self.damping * depth.rate;
+    pub fn switches(&self, at: &Situation<'_, S>, depth: Depth<S>, out: &mut [S]) {
+        let factor = S::one() + self.damping.factor(at) * depth.rate;
         out[0] = depth.value;
         out[1] = S::select(depth.value, factor, S::one());
+    }
+
+    /// c, s/m. None if it depends on the speed with which the contact began.
+    pub fn constant_damping(&self) -> Option<S> {
+        match self.damping {
+            ContactDamping::Constant(c) => Some(c),
+            ContactDamping::BySpeed(_) => None,
+        }
     }
 
     /// k and n of the elastic part, for cylinders at a light load.
@@ -187,26 +243,42 @@ impl Compliance<f64> {
     /// The fault of the fields that select a law. `apart` is the sum of the signed radii of two circles.
     pub(super) fn fault(
         &self,
-        law: NormalLaw,
         apart: Option<f64>,
-        [restitution, rest_speed]: [Option<f64>; 2],
+        rest_speed: f64,
     ) -> Option<(&'static str, String)> {
-        let own = match law {
-            NormalLaw::HuntCrossley => self.of_cylinders().into_iter().find(|of| of.1.is_some()),
-            NormalLaw::Hertz => return self.fault_of_cylinders(apart, restitution),
-            NormalLaw::LankaraniNikravesh | NormalLaw::Flores => {
-                let message = "lankarani_nikravesh and flores are not offered: their damping depends on the speed with \
-                               which each contact began, which no force keeps; at about the speed v, hunt_crossley \
-                               has the same force with damping = 3*(1 - e^2)/(4*v), or 8*(1 - e)/(5*e*v)";
-                return Some(("law", message.to_string()));
-            }
-        };
+        if self.law == NormalLaw::Hertz {
+            return self.fault_of_cylinders(apart, self.restitution);
+        }
+        let own = self.of_cylinders().into_iter().find(|of| of.1.is_some());
         let of_other = |(field, _)| {
             (field, "belongs to law = \"hertz\"; give this law, or remove the field".to_string())
         };
-        let bounces = [restitution, rest_speed];
-        let usual = || fault(self.stiffness, [self.exponent, 1.5], self.damping, bounces);
+        let bounces = [self.restitution, Some(rest_speed)];
+        let usual = || match self.law.keeps_speed() {
+            true => self.fault_of_speed(rest_speed),
+            false => fault(self.stiffness, [self.exponent, 1.5], self.damping, bounces),
+        };
         own.map(of_other).or_else(usual)
+    }
+
+    /// The fault of a law whose damping follows from a restitution.
+    fn fault_of_speed(&self, rest_speed: f64) -> Option<(&'static str, String)> {
+        let refuse = |field, message: &str| Some((field, message.to_string()));
+        let Some(e) = self.restitution else {
+            return refuse("restitution", "missing; the damping of this law follows from it");
+        };
+        match self.law {
+            _ if self.stiffness.is_none() => refuse("stiffness", "missing; this law needs it"),
+            _ if self.damping != 0.0 => refuse(
+                "damping",
+                "follows from restitution; remove it, or give law = \"hunt_crossley\"",
+            ),
+            NormalLaw::Flores if e <= 0.0 || e > 1.0 => {
+                refuse("restitution", "must be above 0 and at most 1")
+            }
+            _ if !(0.0..=1.0).contains(&e) => refuse("restitution", "must be from 0 to 1"),
+            _ => fault(self.stiffness, [self.exponent, 1.5], 0.0, [None, Some(rest_speed)]),
+        }
     }
 
     fn of_cylinders(&self) -> [(&'static str, Option<f64>); 3] {

@@ -285,6 +285,12 @@ macro_rules! words {
         pub enum $Words {
             $($(#[$about])* $Word,)+
         }
+        impl $Words {
+            /// The value with this word in a file.
+            pub fn named(word: &str) -> Option<Self> {
+                $kind::WORDS.iter().position(|own| *own == word).map(|k| $kind::VALUES[k])
+            }
+        }
         $(#[$doc])*
         #[allow(non_camel_case_types)] // a type in `element!`, written like a word
         #[derive(Clone, Copy, Debug)]

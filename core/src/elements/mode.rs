@@ -53,8 +53,8 @@ pub enum Behaviour<S> {
         stiffness: S,
         /// n.
         exponent: S,
-        /// c of the factor 1 + c δ̇, s/m.
-        damping: S,
+        /// c of the factor 1 + c δ̇, s/m. None if it depends on the speed with which the contact began.
+        damping: Option<S>,
     },
 }
 

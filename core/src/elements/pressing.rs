@@ -29,8 +29,6 @@ pub struct Pressing<'e, S: Clone> {
     /// The side of the curve.
     pub side: Side,
     /// The law of a compliant contact.
-    pub law: NormalLaw,
-    /// Its coefficients.
     pub compliance: Compliance<S>,
     /// μ while the contact slides.
     pub friction: S,
@@ -68,6 +66,9 @@ pub trait Presses: Element {
     /// Whether it is compliant.
     fn is_compliant<S>(e: &Self::Over<S>) -> bool;
 
+    /// The law of its normal force.
+    fn law<S>(e: &Self::Over<S>) -> NormalLaw;
+
     /// The distance of the contact.
     fn clearance(e: &Self::Over<f64>) -> Clearance<'_>;
 
@@ -97,10 +98,12 @@ impl<S: Clone> Pressing<'_, S> {
     }
 }
 
-/// The states of wear: the length of sliding and the worn volume.
-const WORN: [OwnState; 2] = [
+/// The states of wear: the length of sliding and the worn volume. The last state is the speed with which the contact
+/// began.
+const STATES: [OwnState; 3] = [
     OwnState { name: "sliding_distance", unit: "m" },
     OwnState { name: "wear_volume", unit: "m^3" },
+    OwnState { name: "impact_speed", unit: "m/s" },
 ];
 
 impl<S: Real> Pressing<'_, S> {
@@ -168,14 +171,15 @@ impl<S: Real> Pressing<'_, S> {
         }
     }
 
-    /// The rates of the [states](WORN) of wear (Archard, *Contact and rubbing of flat surfaces*, J. Appl. Phys. 24 (1953)
-    /// 981).
+    /// The rates of the [states](STATES); those of wear after Archard (*Contact and rubbing of flat surfaces*, J. Appl.
+    /// Phys. 24 (1953) 981).
     fn wearing(&self, at: &Situation<'_, S>, out: &mut [S]) {
         out.fill(S::zero());
+        let [distance, volume, ..] = out else { return };
         let touch = self.point(at);
         let Some(normal) = self.normal(at, &touch).map(Normal::sum) else { return };
         let speed = at.choose(0, -touch.gap, touch.sliding.abs(), S::zero());
-        (out[0], out[1]) = (speed, self.wear * normal * speed);
+        (*distance, *volume) = (speed, self.wear * normal * speed);
     }
 
     fn results(&self, at: &Situation<'_, S>, out: &mut [S]) {
@@ -217,7 +221,12 @@ impl Pressing<'_, f64> {
     fn fault(&self) -> Option<(&'static str, String)> {
         let refuse = |field, message: &str| Some((field, message.to_string()));
         let most = self.r#static.unwrap_or(self.friction);
+        let sticks = self.velocity.is_none() && most > 0.0;
         match self.velocity {
+            _ if sticks && self.compliance.law.keeps_speed() => {
+                let message = "friction that sticks needs law = \"hunt_crossley\" or \"hertz\"; or give velocity, such as 0.01";
+                refuse("friction", message)
+            }
             _ if self.wear < 0.0 => refuse("wear", "must not be negative"),
             _ if self.wear > 0.0 && self.restitution.is_some() => {
                 let message = "the load of a contact with restitution is known after the motion only; give stiffness, or \
@@ -245,7 +254,7 @@ impl Pressing<'_, f64> {
     /// A field of the normal force with an impossible value.
     fn fault_of_law(&self) -> Option<(&'static str, String)> {
         let apart = Some(self.touch().pitch()).filter(|_| self.radius != 0.0);
-        self.compliance.fault(self.law, apart, [self.restitution, Some(self.rest_speed)])
+        self.compliance.fault(apart, self.rest_speed)
     }
 }
 
@@ -279,11 +288,14 @@ impl<E: Presses> Force for E {
         E::pressing(e).put(at, &mut out);
     }
 
-    fn states(given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
-        match given("wear") {
-            true => &WORN,
-            false => &[],
-        }
+    fn states<'a>(given: &dyn Fn(&str) -> Option<&'a str>) -> &'static [OwnState] {
+        let first = if given("wear").is_some() { 0 } else { 2 };
+        let keeps = given("law").and_then(NormalLaw::named).is_some_and(NormalLaw::keeps_speed);
+        &STATES[first..if keeps { 3 } else { 2 }]
+    }
+
+    fn keeps_speed<S>(e: &E::Over<S>) -> bool {
+        E::law(e).keeps_speed()
     }
 
     fn state_rates<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
@@ -303,7 +315,7 @@ impl<E: Presses> Force for E {
     fn switches<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
         let own = E::pressing(e);
         if let Some(law) = own.law() {
-            law.switches(own.point(at).depth(), out);
+            law.switches(at, own.point(at).depth(), out);
         }
     }
 
@@ -336,7 +348,7 @@ impl<E: Presses> Force for E {
         let impacts = |restitution| Behaviour::Impacts { restitution, rest_speed };
         let compliant = |law: Hertz<S>| {
             let [stiffness, exponent] = law.power();
-            Behaviour::Compliant { stiffness, exponent, damping: law.damping }
+            Behaviour::Compliant { stiffness, exponent, damping: law.constant_damping() }
         };
         own.restitution.map(impacts).or_else(|| own.law().map(compliant))
     }

@@ -18,9 +18,11 @@ use crate::math::{Listed, Local};
 const OF_POINT: [&str; 3] = ["i", "curve", "side"];
 const OF_CURVES: [&str; 2] = ["curves", "sides"];
 
-/// Fields of a contact at one place, its wear and the cylinders of Hertz's law, each with what to do instead.
-const OF_ONE_PLACE: [[&str; 2]; 2] = [
+/// Fields of a contact at one place, its wear, a law that keeps a speed and the cylinders of Hertz's law, each with what to
+/// do instead.
+const OF_ONE_PLACE: [[&str; 2]; 3] = [
     ["wear", "remove wear"],
+    ["law", "give stiffness and damping in place of law"],
     ["young", "give stiffness in place of law, young, poisson and width"],
 ];
 /// Largest number of contacts of a point or circle in one contact.
@@ -51,7 +53,8 @@ pub(super) fn read(kind: &str, linker: &mut Linker<'_>) -> Option<Option<Vec<For
     }
     if pairings.len() > 1 {
         for [name, instead] in OF_ONE_PLACE {
-            if linker.entry.get(name).is_some() {
+            let usual = || Value::Text("hunt_crossley".to_string());
+            if linker.entry.get(name).is_some_and(|given| *given != usual()) {
                 let message =
                     "belongs to a contact at one place; this one touches at several".to_string();
                 let hint =
@@ -194,7 +197,7 @@ fn firm(
     (both, pairings): (&[CurveOn<Tape>; 2], &[Pairing]),
     linker: &mut Linker<'_>,
 ) -> Option<()> {
-    if linker.entry.get("restitution").is_some() {
+    if linker.entry.get("stiffness").is_none() {
         return Some(());
     }
     let open = |on: &CurveOn<Tape>| !on.curve.periodic() && !matches!(on.curve, Curve::Line { .. });

@@ -43,7 +43,11 @@ pub struct Scope {
 /// The first-order states of a force entry.
 pub(super) fn states(entry: &Entry) -> &'static [OwnState] {
     let Some(Value::Text(kind)) = entry.get("type") else { return &[] };
-    let given = |field: &str| entry.get(field).is_some_and(|value| *value != Value::Number(0.0));
+    let given = |field: &str| match entry.get(field)? {
+        Value::Number(0.0) => None,
+        Value::Text(text) => Some(&text[..]),
+        _ => Some(""),
+    };
     states_of(kind, &given)
 }
 

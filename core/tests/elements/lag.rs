@@ -32,7 +32,7 @@ impl Force for Lag {
         out.put(0, 1, Wrench { force, torque: S::zero() });
     }
 
-    fn states(_: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
+    fn states<'a>(_: &dyn Fn(&str) -> Option<&'a str>) -> &'static [OwnState] {
         &[OwnState { name: "filtered", unit: "m" }]
     }
 

@@ -488,8 +488,10 @@ class Clearance(Element):
         exponent: Exponent of the depth.
         damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
             [s/m].
-        law: Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders
-            that of Hertz with `young`, `poisson`, `width` and `damping`.
+        law: Law of the force: that of `stiffness`, `exponent` and `damping`; for cylinders that
+            of Hertz with `young`, `poisson`, `width` and `damping`; or `stiffness` and
+            `exponent` with the damping of Lankarani and Nikravesh, or of Flores, which follows
+            from `restitution` and from the state `impact_speed`, the speed of each impact.
         young: Modulus of elasticity of both cylinders [Pa].
         poisson: Poisson's ratio of both cylinders.
         width: Width of the cylinders [m].
@@ -498,7 +500,7 @@ class Clearance(Element):
         velocity: Tangential velocity at which the friction has 76 % of its full value. Without
             it, the pin may stick [m/s].
         restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
-            `stiffness`.
+            `stiffness`, or with it as the number from which `law` computes the damping.
         rest_speed: With `restitution`: rate below which the pin rests on the bush [m/s].
         wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
             contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
@@ -987,8 +989,10 @@ class Contact(Element):
         exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
         damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
             [s/m].
-        law: Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders
-            that of Hertz with `young`, `poisson`, `width` and `damping`.
+        law: Law of the force: that of `stiffness`, `exponent` and `damping`; for cylinders that
+            of Hertz with `young`, `poisson`, `width` and `damping`; or `stiffness` and
+            `exponent` with the damping of Lankarani and Nikravesh, or of Flores, which follows
+            from `restitution` and from the state `impact_speed`, the speed of each impact.
         young: Modulus of elasticity of both cylinders [Pa].
         poisson: Poisson's ratio of both cylinders.
         width: Width of the cylinders [m].
@@ -997,7 +1001,7 @@ class Contact(Element):
         velocity: Tangential velocity at which the friction has 76 % of its full value. Without
             it, the contact may stick [m/s].
         restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
-            `stiffness`.
+            `stiffness`, or with it as the number from which `law` computes the damping.
         rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
         wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
             contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
@@ -1470,8 +1474,10 @@ class ElementMethods:
             exponent: Exponent of the depth.
             damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
                 [s/m].
-            law: Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders
-                that of Hertz with `young`, `poisson`, `width` and `damping`.
+            law: Law of the force: that of `stiffness`, `exponent` and `damping`; for cylinders that
+                of Hertz with `young`, `poisson`, `width` and `damping`; or `stiffness` and
+                `exponent` with the damping of Lankarani and Nikravesh, or of Flores, which follows
+                from `restitution` and from the state `impact_speed`, the speed of each impact.
             young: Modulus of elasticity of both cylinders [Pa].
             poisson: Poisson's ratio of both cylinders.
             width: Width of the cylinders [m].
@@ -1480,7 +1486,7 @@ class ElementMethods:
             velocity: Tangential velocity at which the friction has 76 % of its full value. Without
                 it, the pin may stick [m/s].
             restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
-                `stiffness`.
+                `stiffness`, or with it as the number from which `law` computes the damping.
             rest_speed: With `restitution`: rate below which the pin rests on the bush [m/s].
             wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
                 contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].
@@ -1933,8 +1939,10 @@ class ElementMethods:
             exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
             damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
                 [s/m].
-            law: Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders
-                that of Hertz with `young`, `poisson`, `width` and `damping`.
+            law: Law of the force: that of `stiffness`, `exponent` and `damping`; for cylinders that
+                of Hertz with `young`, `poisson`, `width` and `damping`; or `stiffness` and
+                `exponent` with the damping of Lankarani and Nikravesh, or of Flores, which follows
+                from `restitution` and from the state `impact_speed`, the speed of each impact.
             young: Modulus of elasticity of both cylinders [Pa].
             poisson: Poisson's ratio of both cylinders.
             width: Width of the cylinders [m].
@@ -1943,7 +1951,7 @@ class ElementMethods:
             velocity: Tangential velocity at which the friction has 76 % of its full value. Without
                 it, the contact may stick [m/s].
             restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
-                `stiffness`.
+                `stiffness`, or with it as the number from which `law` computes the damping.
             rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
             wear: Worn volume for each newton and each metre of sliding (Archard); for compliant
                 contacts. The states sliding_distance and wear_volume then begin at 0 [m^2/N].

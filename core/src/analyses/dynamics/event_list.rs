@@ -70,6 +70,8 @@ pub(super) struct Watched<'a> {
     pub direction: Direction,
     /// Whether the event ends the phase.
     pub ends: bool,
+    /// Whether a mode with this function lasts at the start of the phase. The function then counts as positive there.
+    pub lasts: bool,
     /// Whether the event is listed where its function changes sign. Events of modes are listed later, after the new
     /// modes are determined.
     pub listed: bool,
@@ -118,9 +120,7 @@ impl Watch for InStep<'_, '_> {
         }
         if t == began.0 || jumps {
             // the mode may end after a time that is short compared with the steps
-            let of_mode = |event: &Watched<'_>| matches!(event.function, EventFunction::Mode(_));
-            let modes =
-                watched.iter().zip(&mut *out).filter(|(event, _)| of_mode(event) && event.ends);
+            let modes = watched.iter().zip(&mut *out).filter(|(event, _)| event.lasts);
             modes.for_each(|(_, out)| *out = out.max(f64::MIN_POSITIVE));
         }
         if t == self.step.t {

@@ -117,7 +117,8 @@ pub(super) fn watched<'c>(
             let has_mode = modes::has_mode(model, force);
             // the friction of a compliant contact begins and ends with the contact
             let rubs = model.forces[force].partner.is_some();
-            let ends = (has_mode || rubs) && place != modes::GRAZE;
+            let keeps = place == 0 && model.forces[force].element.keeps_speed();
+            let ends = (has_mode || rubs) && place != modes::GRAZE || keeps;
             // a compliant contact acts as soon as the gap is negative
             let error = accuracy * modes::gap_unit(model, force);
             let shallow = if modes::is_contact(model, force) { error } else { 0.0 };
@@ -128,6 +129,7 @@ pub(super) fn watched<'c>(
                 function: EventFunction::Mode(function),
                 direction,
                 ends,
+                lasts: ends && !keeps,
                 listed: !has_mode || !ends,
             };
         }
@@ -140,6 +142,7 @@ pub(super) fn watched<'c>(
             function: condition.map_or(EventFunction::Never, EventFunction::Condition),
             direction: condition.map_or(event.direction, |c| c.direction(event.direction)),
             ends: event.effect != Effect::None,
+            lasts: false,
             listed: true,
         }
     });

@@ -56,7 +56,8 @@ pub(super) struct Statics<'a> {
     /// Scales of the coordinates and of the rows of Φ.
     pub columns: Vec<f64>,
     rows: Vec<f64>,
-    /// Indices in z of the states that have a rate ż. The states of sampled laws keep their values.
+    /// Indices in z of the states that have a rate ż. The states of sampled laws keep their values, and so do the
+    /// speeds with which contacts began.
     states: Vec<usize>,
     /// Whether rows of Φ may be linearly dependent.
     redundant: bool,
@@ -69,7 +70,12 @@ const NEVER: &dyn Fn() -> bool = &|| false;
 impl<'a> Statics<'a> {
     pub fn new(model: &'a Model, t: f64) -> Self {
         let layout = &model.layout;
-        let states = (0..layout.n_z).filter(|at| !layout.held.contains(at)).list();
+        let kept = |at: &usize| {
+            let own = model.forces.iter().zip(&layout.states).find(|(_, own)| own.contains(at));
+            own.is_some_and(|(item, own)| item.element.keeps_speed() && at + 1 == own.end)
+        };
+        let all = (0..layout.n_z).filter(|at| !layout.held.contains(at) && !kept(at));
+        let states = all.list();
         Self {
             closing: Closing::new(model, t, NEVER),
             balance: Balance::new(model),

@@ -59,7 +59,7 @@ fn no_states(model: &Model) -> Result<(), Outcome> {
         return Ok(());
     }
     let message = format!("{}: its states do not follow from the motion", names.join(", "));
-    Err(Outcome::new(ErrorClass::Model, message).hint("use dynamics, or leave out the inductance"))
+    Err(Outcome::new(ErrorClass::Model, message).hint("use dynamics, or leave out what has states"))
 }
 
 /// The record with reactions and efforts, which must be unique.

@@ -183,10 +183,10 @@ impl<'a> ReadyVariant<'a> {
         states: States<'a>,
     ) -> Result<StateSlopes<'a>, String> {
         let AnyAnalysis::Dynamics(options) = &self.ready.analysis else {
-            refusal(run, true).map_or(Ok(()), Err)?;
+            refusal(model, run, true).map_or(Ok(()), Err)?;
             return Ok(StateSlopes::Driven(self.blocks(model)?, states));
         };
-        refusal(run, false).map_or(Ok(()), Err)?;
+        refusal(model, run, false).map_or(Ok(()), Err)?;
         let Starts { states, late } = self.starts()?;
         let late = if options.t_start.is_some() { vec![0.0; late.len()] } else { late };
         let starts: Vec<Vec<Slope>> = states.into_iter().map(joined).list();

@@ -51,7 +51,7 @@ pub(super) fn ending(
 }
 
 /// Why a run has no derivatives; None if it has.
-pub(super) fn refusal(run: &Run, is_driven: bool) -> Option<String> {
+pub(super) fn refusal(model: &Model, run: &Run, is_driven: bool) -> Option<String> {
     let has_phases = run.phases.len() > 1 || run.settings.iter().any(|one| !one.is_plain());
     if is_driven && has_phases {
         return Some("drivers end their motion along the way".to_string());
@@ -59,7 +59,11 @@ pub(super) fn refusal(run: &Run, is_driven: bool) -> Option<String> {
     if let Some(passed) = run.passed.first() {
         return Some(format!("the motion passes the singular position at t = {:.6} s", passed.t));
     }
-    None
+    let keeps = model.forces.iter().find(|item| item.element.keeps_speed())?;
+    Some(format!(
+        "the damping of {} depends on the speed with which each contact begins",
+        keeps.name
+    ))
 }
 
 /// The ends of the steps of a run; its outputs if they are not known.

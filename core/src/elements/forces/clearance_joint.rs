@@ -10,8 +10,8 @@
 use crate::elements::hertz::Compliance;
 use crate::elements::pressing::{Amount, Presses, Pressing};
 use crate::elements::{
-    element, At, BodyId, Clearance, Curve, CurveOn, Group, Mark, Required, Rim, SceneSymbol, Side,
-    SymbolEnd,
+    element, At, BodyId, Clearance, Curve, CurveOn, Group, Mark, NormalLaw, Required, Rim,
+    SceneSymbol, Side, SymbolEnd,
 };
 use std::borrow::Cow;
 
@@ -35,8 +35,9 @@ element! {
         exponent: number = 1.5,
         /// Damping factor: the force is multiplied by 1 + damping × rate of the depth.
         damping: number [s/m] = 0.0,
-        /// Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders that of Hertz with
-        /// `young`, `poisson`, `width` and `damping`.
+        /// Law of the force: that of `stiffness`, `exponent` and `damping`; for cylinders that of Hertz with `young`,
+        /// `poisson`, `width` and `damping`; or `stiffness` and `exponent` with the damping of Lankarani and Nikravesh, or
+        /// of Flores, which follows from `restitution` and from the state `impact_speed`, the speed of each impact.
         law: normal_law = "hunt_crossley",
         /// Modulus of elasticity of both cylinders.
         young: optional_number [Pa],
@@ -51,7 +52,8 @@ element! {
         /// Tangential velocity at which the friction has 76 % of its full value. Without it, the pin
         /// may stick.
         velocity: optional_number [m/s],
-        /// Rate after an impact over the rate before it, from 0 to 1; in place of `stiffness`.
+        /// Rate after an impact over the rate before it, from 0 to 1; in place of `stiffness`, or with it as the number
+        /// from which `law` computes the damping.
         restitution: optional_number,
         /// With `restitution`: rate below which the pin rests on the bush.
         rest_speed: number [m/s] = 1e-9,
@@ -72,19 +74,20 @@ impl Presses for ClearanceJoint {
             curve: Cow::Owned(Rim::new(curve)),
             radius: -e.radius.clone(),
             side: Side::Left,
-            law: e.law,
             compliance: Compliance {
+                law: e.law,
                 stiffness: e.stiffness.clone(),
                 exponent: e.exponent.clone(),
                 damping: e.damping.clone(),
                 young: e.young.clone(),
                 poisson: e.poisson.clone(),
                 width: e.width.clone(),
+                restitution: e.restitution.clone(),
             },
             friction: e.friction.clone(),
             r#static: e.r#static.clone(),
             velocity: e.velocity.clone(),
-            restitution: e.restitution.clone(),
+            restitution: e.restitution.clone().filter(|_| !e.law.keeps_speed()),
             rest_speed: e.rest_speed.clone(),
             wear: e.wear.clone(),
         }
@@ -99,7 +102,11 @@ impl Presses for ClearanceJoint {
     }
 
     fn is_compliant<S>(e: &ClearanceJoint<S>) -> bool {
-        e.restitution.is_none()
+        e.restitution.is_none() || e.law.keeps_speed()
+    }
+
+    fn law<S>(e: &ClearanceJoint<S>) -> NormalLaw {
+        e.law
     }
 
     fn clearance(e: &ClearanceJoint) -> Clearance<'_> {

@@ -13,8 +13,8 @@ use crate::elements::hertz::Compliance;
 use crate::elements::pressing::{Amount, Presses, Pressing};
 use crate::elements::touch::CurveTouch;
 use crate::elements::{
-    contact, element, At, Attachment, BodyId, Clearance, Equation, Group, Joint, Mark, SceneSymbol,
-    SymbolEnd,
+    contact, element, At, Attachment, BodyId, Clearance, Equation, Group, Joint, Mark, NormalLaw,
+    SceneSymbol, SymbolEnd,
 };
 use crate::math::{Local, Real};
 use std::borrow::Cow;
@@ -43,8 +43,9 @@ element! {
         exponent: number = 1.5,
         /// Damping factor: the force is multiplied by 1 + damping × rate of the depth.
         damping: number [s/m] = 0.0,
-        /// Law of the force: that of `stiffness`, `exponent` and `damping`, or for cylinders that of Hertz with
-        /// `young`, `poisson`, `width` and `damping`.
+        /// Law of the force: that of `stiffness`, `exponent` and `damping`; for cylinders that of Hertz with `young`,
+        /// `poisson`, `width` and `damping`; or `stiffness` and `exponent` with the damping of Lankarani and Nikravesh, or
+        /// of Flores, which follows from `restitution` and from the state `impact_speed`, the speed of each impact.
         law: normal_law = "hunt_crossley",
         /// Modulus of elasticity of both cylinders.
         young: optional_number [Pa],
@@ -59,7 +60,8 @@ element! {
         /// Tangential velocity at which the friction has 76 % of its full value. Without it, the
         /// contact may stick.
         velocity: optional_number [m/s],
-        /// Rate after an impact over the rate before it, from 0 to 1; in place of `stiffness`.
+        /// Rate after an impact over the rate before it, from 0 to 1; in place of `stiffness`, or with it as the number
+        /// from which `law` computes the damping.
         restitution: optional_number,
         /// With `restitution`: rate below which the bodies rest on each other.
         rest_speed: number [m/s] = 1e-9,
@@ -96,19 +98,20 @@ impl Presses for Contact {
             curve: Cow::Borrowed(&e.curve),
             radius: e.radius.clone(),
             side: e.side,
-            law: e.law,
             compliance: Compliance {
+                law: e.law,
                 stiffness: e.stiffness.clone(),
                 exponent: e.exponent.clone(),
                 damping: e.damping.clone(),
                 young: e.young.clone(),
                 poisson: e.poisson.clone(),
                 width: e.width.clone(),
+                restitution: e.restitution.clone(),
             },
             friction: e.friction.clone(),
             r#static: e.r#static.clone(),
             velocity: e.velocity.clone(),
-            restitution: e.restitution.clone(),
+            restitution: e.restitution.clone().filter(|_| !e.law.keeps_speed()),
             rest_speed: e.rest_speed.clone(),
             wear: e.wear.clone(),
         }
@@ -123,7 +126,11 @@ impl Presses for Contact {
     }
 
     fn is_compliant<S>(e: &Contact<S>) -> bool {
-        e.restitution.is_none()
+        e.restitution.is_none() || e.law.keeps_speed()
+    }
+
+    fn law<S>(e: &Contact<S>) -> NormalLaw {
+        e.law
     }
 
     fn clearance(e: &Contact) -> Clearance<'_> {

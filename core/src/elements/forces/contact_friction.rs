@@ -12,7 +12,7 @@ use crate::elements::hertz::{Compliance, Normal};
 use crate::elements::touch::{CurveTouch, TouchPoint};
 use crate::elements::{
     element, At, Attachment, Behaviour, BodyId, Constraint, Equation, Force, Joint, Mode, Nature,
-    Part, ResultQuantity, Situation, Wrenches,
+    NormalLaw, Part, ResultQuantity, Situation, Wrenches,
 };
 use crate::expression::Tape;
 use crate::math::{Local, Real, Wrench};
@@ -73,7 +73,9 @@ impl<S: Real> ContactFriction<S> {
     /// contact.
     fn normal(&self, at: &Situation<'_, S>, point: &TouchPoint<S>) -> (S, Wrench<S>) {
         let Self { stiffness, exponent, damping, young, poisson, width, .. } = *self;
-        let law = Compliance { stiffness, exponent, damping, young, poisson, width };
+        let (law, restitution) = (NormalLaw::HuntCrossley, None);
+        let law =
+            Compliance { law, stiffness, exponent, damping, young, poisson, width, restitution };
         match law.law(self.touch().pitch()) {
             Some(law) => {
                 let normal = law.normal(at, 0, point.depth());

@@ -129,8 +129,8 @@ impl Force for Motor {
         out.put(0, 1, Wrench::torque(torque));
     }
 
-    fn states(given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
-        match given("inductance") {
+    fn states<'a>(given: &dyn Fn(&str) -> Option<&'a str>) -> &'static [OwnState] {
+        match given("inductance").is_some() {
             true => &[OwnState { name: "current", unit: "A" }],
             false => &[],
         }

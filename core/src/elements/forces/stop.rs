@@ -10,7 +10,7 @@
 //!
 //! The gap is the smaller of s - lower and upper - s. It is positive between the limits.
 
-use crate::elements::hertz::{self, Depth, Elastic, Hertz, SWITCHES};
+use crate::elements::hertz::{self, ContactDamping, Depth, Elastic, Hertz, SWITCHES};
 use crate::elements::{
     element, holding, Acted, At, Behaviour, BodyId, Clearance, Constraint, Followed, Force, Mark,
     Measured, Nature, Part, QuantityKind, ResultQuantity, SceneSymbol, Situation, SymbolEnd,
@@ -81,6 +81,7 @@ fn gap<S: Real>(e: &Stop<S>, s: S) -> S {
 /// The law of a compliant stop.
 fn law<S: Real>(e: &Stop<S>) -> Option<Hertz<S>> {
     let (exponent, damping) = (e.exponent, e.damping);
+    let damping = ContactDamping::Constant(damping);
     e.stiffness.map(|stiffness| Hertz { elastic: Elastic::Power(stiffness, exponent), damping })
 }
 
@@ -166,7 +167,7 @@ impl Force for Stop {
         let Some(law) = law(e) else { return };
         let s = coordinate(&e.coordinate, at);
         for (out, limit) in out.chunks_exact_mut(SWITCHES).zip(limits(e)) {
-            law.switches(depth(s, limit), out);
+            law.switches(at, depth(s, limit), out);
         }
     }
 
@@ -192,7 +193,7 @@ impl Force for Stop {
     }
 
     fn behaviour<S: Real>(e: &Stop<S>) -> Option<Behaviour<S>> {
-        let (rest_speed, exponent, damping) = (e.rest_speed, e.exponent, e.damping);
+        let (rest_speed, exponent, damping) = (e.rest_speed, e.exponent, Some(e.damping));
         let compliant = |stiffness| Behaviour::Compliant { stiffness, exponent, damping };
         let impacts = |restitution| Behaviour::Impacts { restitution, rest_speed };
         e.restitution.map(impacts).or(e.stiffness.map(compliant))

@@ -148,6 +148,28 @@ impl StateAt<'_> {
         gap <= TOUCHING * unit(model, force)
     }
 
+    /// Sets the speed with which a compliant contact begins, where its element [keeps](ForceElement::keeps_speed) it: the
+    /// rate with which the gap closes.
+    pub fn keep_speed(&mut self, model: &Model, force: usize) {
+        let [rate] = self.gap_rates(model, &[force])[..] else { return };
+        let state = model.layout.states[force].end - 1;
+        let [_, _, z, _] = model.layout.split_mut(self.y);
+        z[state] = (-rate).max(0.0);
+    }
+
+    /// The same for all contacts that are closed at the start of a run, unless their speeds are given.
+    pub fn keep_speeds_of_closed(&mut self, model: &Model) {
+        for force in 0..model.forces.len() {
+            let keeps = model.forces[force].element.keeps_speed();
+            if keeps && self.thresholds(model, &[force])[0] <= 0.0 {
+                let state = model.layout.states[force].end - 1;
+                if self.state(model)[2][state] == 0.0 {
+                    self.keep_speed(model, force);
+                }
+            }
+        }
+    }
+
     /// The gap, in both directions, at which a contact no longer rests that other equations keep closed.
     pub fn play(&self, model: &Model, force: usize) -> f64 {
         let gap = self.thresholds(model, &[force])[0];
