@@ -45,7 +45,7 @@ const STATES: u64 = 10;
 /// The chain with one force.
 fn with(force: &ForceElement) -> Model {
     let chain = model(CHAIN);
-    let all = states_of(force.kind(), &|_| true);
+    let all = states_of(force.kind(), &|_| Some(""));
     let build = |states: &'static [OwnState]| {
         let mut blueprint = (*chain.blueprint).clone();
         let element = force.map(&mut |x| Tape::from(*x));
