@@ -33,8 +33,6 @@ const STEPS: usize = 500;
 const ROUNDS: usize = 4;
 /// Fraction of the predicted change of energy that a step must achieve.
 const ENOUGH: f64 = 1e-4;
-/// Reduction of the residual force by a short step that shows convergence.
-const CONVERGES: f64 = 0.1;
 /// An eigenvalue of the stiffness below this part of the largest counts as zero.
 pub(super) const ZERO: f64 = 1e-11;
 /// Scaled displacement from an unstable position, and the largest number of such displacements.
@@ -198,9 +196,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
                 let predicted = dot(&local.gradient, p);
                 let change = self.statics.energy_change(place, &next);
                 let rounding = predicted.abs() < 1e-13 * place.scale;
-                // near a minimum, the change of the energy is lost in rounding errors before the force is
-                let converges = after < CONVERGES * before && self.statics.largest(&dq) < PUSH;
-                change <= ENOUGH * predicted || (rounding && after < before) || converges
+                change <= ENOUGH * predicted || (rounding && after < before)
             }
         };
         Ok(better.then_some((next, there)))
