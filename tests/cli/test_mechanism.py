@@ -41,3 +41,20 @@ def test_the_place_of_the_largest_residual_is_an_angle_in_degrees() -> None:
     worst = sol.summary["peaks"]["residual"]
     assert float(found[1]) == pytest.approx(np.degrees(worst["at"]), rel=1e-3)
     assert found[2].startswith("°")
+
+
+def test_joints_that_are_forces_stand_among_the_joints(tmp_path: Path) -> None:
+    """A gear with backlash and a loose belt have the types of their files."""
+    m = kp.Model("wheels")
+    m.ground.points(O=(0, 0), Q=(0.3, 0), R=(1, 0))
+    for name, place in (("a", "O"), ("b", "Q"), ("c", "R")):
+        m.body(name, mass=1, inertia=0.01, points={"O": (0, 0)})
+        m.revolute(f"pin_{name}", f"ground.{place}", f"{name}.O")
+    m.gear("teeth", "a.O", "b.O", radii=(0.1, 0.2), backlash=1e-3)
+    m.belt("strap", "a.O", "c.O", radii=(0.1, 0.1), preload=10, friction=0.3)
+    kp.Case(m).save(tmp_path / "wheels.toml")
+    found = kempe("check", tmp_path / "wheels.toml").stdout
+    joints = found[found.index("Joints") :]
+    assert re.search(r"teeth +gear +a +b", joints)
+    assert re.search(r"strap +belt +a +c", joints)
+    assert "Forces" not in found

@@ -7,7 +7,7 @@ use crate::guard::guard;
 use crate::run_analysis::RecentAnalysis;
 use kempe::analyses::dynamics::{Prepared, Setting};
 use kempe::elements::{
-    BodyId, Curve, Measured, Mode, OwnState, ResultQuantity, SceneSymbol, SymbolEnd,
+    BodyId, Curve, Group, Measured, Mode, OwnState, ResultQuantity, SceneSymbol, SymbolEnd,
 };
 use kempe::equations::reactions::touched;
 use kempe::expression::Table;
@@ -343,7 +343,8 @@ fn force(model: &Model, k: usize) -> Value {
     let of_result = |r: &ResultQuantity| json!({ "name": r.name, "unit": r.unit });
     json!({
         "name": item.name,
-        "type": item.element.kind(),
+        "type": item.element.written(),
+        "is_joint": item.element.group() == Group::Joints,
         "i": i,
         "j": j,
         "bodies": bodies,

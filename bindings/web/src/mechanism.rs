@@ -16,7 +16,7 @@ pub fn mechanism(case: &Case, model: &Model) -> Value {
     // an elastic piece is part of its beam
     let forces = model.listed_forces().iter().filter(|item| item.element.in_files());
     let forces: Vec<Value> =
-        forces.map(|item| json!({ "name": item.name, "type": item.element.kind() })).collect();
+        forces.map(|item| json!({ "name": item.name, "type": item.element.written() })).collect();
     let blueprint = &model.blueprint;
     let parameters = blueprint.parameters.iter().zip(&model.parameters).zip(&blueprint.inferred);
     let parameters: Vec<Value> = parameters

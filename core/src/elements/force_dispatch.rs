@@ -73,6 +73,10 @@ macro_rules! forces {
             pub fn kind(&self) -> &'static str {
                 match self { $($(#[$on])* Self::$Name(_) => <$Name>::NAME,)+ }
             }
+            /// Name of the type in files: for a joint with play or slip, that of the joint.
+            pub fn written(&self) -> &'static str {
+                self.joint().map_or(self.kind(), Constraint::kind)
+            }
             /// The bodies on which the force acts: i and j first.
             pub fn bodies(&self) -> Vec<BodyId> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::bodies(e),)+ }

@@ -30,14 +30,15 @@ def show_mechanism(console: Console, state: State) -> None:
         for b in model.compile().shown_bodies.values()
     ]
     table(console, ("", "name", "type", "mass / kg", "inertia / kg·m²"), bodies, left=3)
+    forces = model.compile().shown_forces.values()
     for title, elements in (
-        ("Joints", model.joints),
-        ("Drivers", model.drivers),
-        ("Forces", model.compile().shown_forces),
+        ("Joints", [*model.joints.values(), *(force for force in forces if force.is_joint)]),
+        ("Drivers", [*model.drivers.values()]),
+        ("Forces", [force for force in forces if not force.is_joint]),
     ):
         if elements:
             heading(console, title)
-            rows = [(e.name, e.type, e.i, e.j) for e in elements.values()]
+            rows = [(e.name, e.type, e.i, e.j) for e in elements]
             table(console, ("name", "type", "body i", "body j"), rows, left=4)
     if not any(model.gravity):
         console.print(Text(f"  {NO_GRAVITY}", style="yellow"))

@@ -163,6 +163,7 @@ class ForceInfo:
         places: slice of its first-order states in z; empty for most forces.
         states: names and units of its first-order states, such as ``("current", "A")``.
         reaction: the joint on whose reaction it depends; None for most forces.
+        is_joint: whether the file has it among the joints, such as a gear with backlash.
         is_shown: whether lists and figures show it; an elastic piece is part of its beam.
         reads_multipliers: whether it depends on multipliers.
         results: names and units of its results beside its wrenches, such as ``("load", "N")``.
@@ -179,6 +180,7 @@ class ForceInfo:
     places: slice
     states: tuple[tuple[str, str], ...]
     reaction: str | None
+    is_joint: bool
     is_shown: bool
     reads_multipliers: bool
     results: tuple[tuple[str, str], ...]
@@ -267,6 +269,7 @@ def force(entry: dict[str, Any]) -> ForceInfo:
         places=slice(*entry["places"]),
         states=_units(entry["states"]),
         reaction=entry["reaction"],
+        is_joint=entry["is_joint"],
         is_shown=entry["is_shown"],
         reads_multipliers=entry["reads_multipliers"],
         results=_units(entry["results"]),
