@@ -165,3 +165,17 @@ def test_in_a_file_on_the_command_line_and_in_figures(
     assert list(folder.rglob("*limits.png"))
     rows = np.genfromtxt(folder / "limits.csv", delimiter=",", names=True)
     assert rows["crankangle_rad"][-1] == pytest.approx(OUT, abs=1e-9)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_a_crank_that_nearly_turns_fully_stops_short_of_the_full_turn(size: float) -> None:
+    """The other branch is so near that a step across the dead point would land on it."""
+    g, a, b = (size * length for length in (0.33, 0.36, 0.68))
+    for share in (1e-4, 1e-6):
+        c = b - (a - g) * (1 + share)
+        least = np.arccos((g**2 + a**2 - (b - c) ** 2) / (2 * g * a))
+        for angle in np.linspace(0.3, 6.0, 40):
+            m = four_bar(g, a, b, c)
+            found = kp.limits(m, kp.assemble(m, set={"crank.angle": angle}), over="crank.angle")
+            ends = [found.lower, found.upper]
+            assert ends == pytest.approx([least, 2 * np.pi - least], abs=1e-8), (share, angle)

@@ -146,3 +146,49 @@ def test_a_point_that_moves_on_a_line_or_not_at_all_reaches_no_area(tmp_path: Pa
         assert found.area == pytest.approx(0, abs=1e-9)
         assert {path.name for path in found.save(tmp_path)} == {"reachable.csv", "boundary.csv"}
         assert result_pages(found)[0].figure().axes
+
+
+def cranks_to(at: np.ndarray, pivot: complex, crank: float, link: float) -> list[np.ndarray]:
+    """Both angles of a crank whose link ends at a place; NaN where it is too near or too far."""
+    line = at - pivot
+    cosine = (crank**2 - link**2 + abs(line) ** 2) / (2 * crank * abs(line))
+    with np.errstate(invalid="ignore"):
+        return [np.angle(line) + sign * np.arccos(cosine) for sign in (1, -1)]
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_a_limit_does_not_join_distant_parts_of_a_region(scale: float) -> None:
+    """A place is in the region of a five-bar if both cranks can reach it within their ranges."""
+    base, a, b, c, d = (scale * length for length in (0.437, 0.379, 0.44, 0.465, 0.621))
+    ranges = ((-2.52, -1.43), (-3.08, -2.33))
+    m = kp.Model("five-bar")
+    m.ground.points(O=(0, 0), D=(base, 0))
+    lengths = {"left": a, "right": d, "p": b, "q": c}
+    for (name, length), ends in zip(lengths.items(), ("OB", "DE", "BC", "EC"), strict=True):
+        m.bar(name, mass=1, length=length, ends=tuple(ends))
+    pins = {"O": ("ground", "left"), "D": ("ground", "right"), "B": ("left", "p")}
+    for name, (i, j) in (pins | {"E": ("right", "q"), "C": ("p", "q")}).items():
+        m.revolute(name, f"{i}.{name}", f"{j}.{name}")
+
+    x, y = np.meshgrid(*[np.linspace(-a - b, a + b, 600)] * 2)
+    at, inside = x + 1j * y, np.zeros(x.shape, bool)
+    for left in cranks_to(at, 0, a, b):
+        for right in cranks_to(at, base, d, c):
+            pin = a * np.exp(1j * left)
+            far = base + d * np.exp(1j * right)
+            on_the_right = ((far - pin).conj() * (at - pin)).imag < 0
+            angles = zip((left, right), ranges, strict=True)
+            within = [(angle - low) % (2 * np.pi) <= high - low for angle, (low, high) in angles]
+            inside |= on_the_right & within[0] & within[1]
+    expected = inside.sum() * (x[0, 1] - x[0, 0]) ** 2
+
+    pin, far = a * np.exp(-2.01j), base + d * np.exp(-2.64j)
+    aside = cranks_to(far - pin, 0, b, c)[1]
+    start = kp.assemble(
+        m, set={"left.angle": -2.01, "right.angle": -2.64}, guess={"p.angle": float(aside)}
+    )
+    found = kp.reachable(
+        m, start, of="p.C", over=("left.angle", "right.angle"), ranges=ranges, n=121
+    )
+    assert not found.complete
+    assert found.area == pytest.approx(expected, rel=0.04)

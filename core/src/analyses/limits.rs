@@ -19,7 +19,7 @@ use crate::model::{size, Model};
 use serde_json::json;
 use std::f64::consts::TAU;
 
-/// NamedNumber of turns after which an angle without a limit counts as unlimited, even if the mechanism never returns to
+/// Number of turns after which an angle without a limit counts as unlimited, even if the mechanism never returns to
 /// its start.
 pub const MOST_TURNS: usize = 24;
 /// Length, in sizes of the mechanism, beyond which a length counts as unlimited.
@@ -125,7 +125,7 @@ pub struct Limits {
     pub kind: QuantityKind,
     /// Descriptions of the lower and the upper end, or of the motion without ends.
     pub reasons: Vec<String>,
-    /// NamedNumber of turns after which the mechanism returns to its start, if it turns fully.
+    /// Number of turns after which the mechanism returns to its start, if it turns fully.
     pub turns: Option<usize>,
     /// Values along the motion, ascending, with the positions of shape (n_q); both ends are included.
     pub path: Vec<(f64, Vec<f64>)>,

@@ -27,6 +27,8 @@ use std::sync::Arc;
 const VALUES: usize = 61;
 /// Largest number of values of each quantity; a region has the square of this number of positions.
 const MOST_VALUES: usize = 2_000;
+/// Part of a step by which rounding errors may change it.
+const ROUNDING: f64 = 1e-6;
 
 kind! {
     /// Two drivers or position quantities, such as `crank.angle`.
@@ -52,7 +54,7 @@ options! {
         /// First and last value of each of them, in SI units and rad.
         ranges: intervals
     ) {
-        /// NamedNumber of values of each quantity, including both ends.
+        /// Number of values of each quantity, including both ends.
         n: count = VALUES,
         /// State at which the analysis starts: "start", or the name of an earlier analysis to use
         /// its final state. If absent, the final state of the previous analysis.
@@ -97,14 +99,18 @@ impl Analysis for Options {
             acting: subject.acting(start),
             limits: Vec::new(),
         };
-        let mut all = vec![region.rows([0, 1], observer.look)?];
+        let mut all = vec![(region.rows([0, 1], observer.look)?, self.step(1))];
         if !region.limits.is_empty() {
             // along the second quantity, parts beyond the limits of the first one may be reached
-            all.push(region.rows([1, 0], observer.look)?);
+            all.push((region.rows([1, 0], observer.look)?, self.step(0)));
         }
         let (boundary, area) = united(&all);
-        let at =
-            all.iter().flatten().flatten().flat_map(|(_, at)| [at.x, at.y]).collect::<Vec<_>>();
+        let at = all
+            .iter()
+            .flat_map(|(rows, _)| rows)
+            .flatten()
+            .flat_map(|(_, at)| [at.x, at.y])
+            .collect::<Vec<_>>();
         let edges = boundary.iter().flat_map(|(part, at)| [*part as f64, at.x, at.y]);
         let edges: Vec<f64> = edges.collect();
         let findings = json!({
@@ -118,6 +124,14 @@ impl Analysis for Options {
             .positions([start.examined()])
             .with("points", [at.len() / 2, 2], at)
             .with("boundary", [edges.len() / 3, 3], edges))
+    }
+}
+
+impl Options {
+    /// The difference of neighbouring values of a quantity.
+    fn step(&self, k: usize) -> f64 {
+        let [first, last] = self.ranges[k];
+        (last - first) / (self.n - 1) as f64
     }
 }
 
@@ -270,11 +284,11 @@ fn number(x: f64) -> Value {
     Value::Number(x)
 }
 
-/// The boundary of the region that sets of rows cover, as points with the number of their contour, and its area. The
+/// The boundary of the region that sets of rows cover, each with the step along its rows, as points with the number of their contour, and its area. The
 /// inner sides of holes are contours too.
-fn united(all: &[Vec<Row>]) -> (Vec<(usize, Vec2)>, f64) {
-    let pairs = all.iter().flat_map(|rows| rows.windows(2));
-    let strips = pairs.flat_map(|pair| strip(&pair[0], &pair[1]));
+fn united(all: &[(Vec<Row>, f64)]) -> (Vec<(usize, Vec2)>, f64) {
+    let pairs = all.iter().flat_map(|(rows, step)| rows.windows(2).map(move |pair| (pair, *step)));
+    let strips = pairs.flat_map(|(pair, step)| strip(&pair[0], &pair[1], step));
     let triangles: Vec<Vec<[f64; 2]>> = strips
         .map(|corners| {
             let [p, q, r] = corners;
@@ -302,8 +316,10 @@ fn signed_area(contour: &[Vec2]) -> f64 {
     contour.iter().zip(next).map(|(p, q)| p.cross(*q)).sum::<f64>() / 2.0
 }
 
-/// Triangles between two rows.
-fn strip(lower: &Row, upper: &Row) -> Vec<[Vec2; 3]> {
+/// Triangles between two rows. Their values differ at most by the `step` along the rows. Where a limit ends one row
+/// earlier than the other one, positions far apart are no neighbours; rows in the other direction cover this part.
+fn strip(lower: &Row, upper: &Row, step: f64) -> Vec<[Vec2; 3]> {
+    let most = step * (1.0 + ROUNDING);
     let (mut i, mut j) = (0, 0);
     let mut triangles = Vec::with_capacity(lower.len() + upper.len());
     while i + 1 < lower.len() || j + 1 < upper.len() {
@@ -311,13 +327,17 @@ fn strip(lower: &Row, upper: &Row) -> Vec<[Vec2; 3]> {
             (Some((a, _)), Some((b, _))) => a <= b,
             (next, _) => next.is_some(),
         };
-        let (p, q) = (lower[i].1, upper[j].1);
-        if along_lower {
+        let (p, q) = (lower[i], upper[j]);
+        let next = if along_lower {
             i += 1;
-            triangles.push([p, lower[i].1, q]);
+            lower[i]
         } else {
             j += 1;
-            triangles.push([p, upper[j].1, q]);
+            upper[j]
+        };
+        let near = (p.0 - q.0).abs() <= most && (next.0 - p.0.min(q.0)) <= most;
+        if near {
+            triangles.push([p.1, next.1, q.1]);
         }
     }
     triangles

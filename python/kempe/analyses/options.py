@@ -645,7 +645,7 @@ class Reachable(Analysis):
         of: Point of a body, such as `hand.P`.
         over: Two drivers, or position quantities such as `arm.angle`.
         ranges: First and last value of each of them, in SI units and rad.
-        n: NamedNumber of values of each quantity, including both ends.
+        n: Number of values of each quantity, including both ends.
         after: State at which the analysis starts: "start", or the name of an earlier analysis
             to use its final state. If absent, the final state of the previous analysis.
         name: its name in the case.

@@ -209,9 +209,6 @@ impl<'a> Continuation<'a> {
     /// nearly meet there. The test rejects a step that would jump between two such branches, or that ends so near to a
     /// singular position that rounding errors determine the sign.
     fn keeps_orientation(&mut self, next: &Point) -> bool {
-        if self.solver.is_clear() {
-            return true;
-        }
         let before = self.orientation.or_else(|| self.solver.orientation(&self.point));
         let Some((before, after)) = before.zip(self.solver.orientation(next)) else { return true };
         let keeps = after != 0.0 && before * after >= 0.0;

@@ -23,8 +23,6 @@ const REGULAR: f64 = 1e-9;
 const DECIDED: f64 = 3e-7;
 /// These bounds relative to the values at the first position. The smaller bound applies.
 const OF_FIRST: f64 = 1e-4;
-/// Fraction of a pivot above which no singular position is near, and so no other branch.
-const CLEAR: f64 = 0.01;
 /// Largest number of coordinates for which the orientation is examined.
 const MOST_DENSE: usize = 120;
 
@@ -222,11 +220,6 @@ impl<'a> Solver<'a> {
     pub fn phi(&mut self, t: f64, q: &[f64]) -> Vec<f64> {
         self.evaluate(t, q);
         self.terms[0].iter().zip(&self.rows).map(|(phi, scale)| phi / scale).list()
-    }
-
-    /// Whether the last point is far from singular positions.
-    pub fn is_clear(&self) -> bool {
-        self.kept > CLEAR
     }
 
     /// The sign of det Φ_q, which is constant along a regular motion; see [`Solver::sign`]. None if Φ_q is not square or
