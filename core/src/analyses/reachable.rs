@@ -317,7 +317,7 @@ fn signed_area(contour: &[Vec2]) -> f64 {
 }
 
 /// Triangles between two rows. Their values differ at most by the `step` along the rows. Where a limit ends one row
-/// earlier than the other one, positions far apart are no neighbours; rows in the other direction cover this part.
+/// earlier than the other one, the rows in the other direction cover the rest.
 fn strip(lower: &Row, upper: &Row, step: f64) -> Vec<[Vec2; 3]> {
     let most = step * (1.0 + ROUNDING);
     let (mut i, mut j) = (0, 0);
