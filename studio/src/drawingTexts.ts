@@ -52,6 +52,8 @@ export const edit = {
   notKept: (body: string) => `With this length of ${body} the bodies beside it cannot keep theirs; they were changed.`,
   noMirror: (body: string) =>
     `${body} cannot be mirrored: it must be placed by points, without shapes, outlines and curves.`,
+  removed: (name: string, others: readonly unknown[]) =>
+    `“${name}” was deleted, with what needs it: ${others.join(", ")}.`,
   invalidName: (name: string) =>
     `“${name}” cannot be a name: a name has letters, digits and _ and is used once; that of a parameter has letters from a to z.`,
 } as const;

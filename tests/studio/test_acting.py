@@ -132,3 +132,89 @@ def test_the_points_of_one_body_have_the_velocities(one: Studio, tmp_path: Path)
         "coupler": {"coupler.B", "coupler.C"},
         "rocker": {"rocker.C"},
     }
+
+
+#: A cam with a roller, and a spring-loaded point that a contact presses on the same cam.
+CAM = """kempe = 1
+gravity = [0, -9.81]
+[bodies.ground]
+points = { O = [0, 0], U = [0, 0.5], L = [0.5, 0] }
+[bodies.cam]
+mass = 2
+inertia = 0.05
+points = { O = [0, 0] }
+curves = { rim = { polar = "0.2 + 0.05*cos(2*u)" } }
+[bodies.rod]
+mass = 1
+inertia = 0.01
+points = { P = [0, 0], T = [0, 0.2] }
+[bodies.bar]
+mass = 1
+inertia = 0.01
+points = { Q = [0, 0], E = [0.2, 0] }
+[joints]
+pivot = { type = "revolute", i = "ground.O", j = "cam.O" }
+up = { type = "translational", i = "ground.U", j = "rod.T", axes = ["90 deg", "90 deg"] }
+aside = { type = "translational", i = "ground.L", j = "bar.E" }
+roller = { type = "roller_on_curve", i = "rod.P", curve = "cam.rim", radius = 0.03 }
+[drivers.motor]
+type = "coordinate_driver"
+coordinate = "cam.angle"
+value = "0.4 + 3*t"
+[forces]
+press = { type = "force", j = "bar.Q", force = [-40, 0] }
+touch = { type = "contact", i = "bar.Q", curve = "cam.rim", stiffness = 1e4, exponent = 1 }
+[start]
+guess = { "rod.y" = 0.2, "bar.x" = 0.24 }
+[analyses.fall]
+type = "dynamics"
+t_end = 0.5
+output_step = 0.1
+"""
+CAM_KINDS = {
+    "Reactions": {
+        "pivot": ("ground.O", "cam.O"),
+        "up": ("ground.U", "rod.T"),
+        "aside": ("ground.L", "bar.E"),
+        "roller": ("rod", "cam"),
+    },
+    "Forces": {"press": (None, "bar.Q"), "touch": ("bar", "cam")},
+}
+
+
+@pytest.mark.parametrize("body", ["", "cam", "rod", "bar"])
+@pytest.mark.parametrize("kind", ["Reactions", "Forces"])
+def test_forces_on_curves_act_on_both_bodies(
+    one: Studio, tmp_path: Path, kind: str, body: str
+) -> None:
+    """The force of a roller or a contact is drawn where it touches, with the sign for the body."""
+    assert one.load(CAM)["problems"] == []
+    one.mode("read")
+    for other in KINDS:
+        one.page.get_by_label(other, exact=True).set_checked(other == kind)
+    show(one, T)
+    one.page.locator("#on-body").select_option(body)
+    path = tmp_path / "case.toml"
+    path.write_text(CAM, encoding="utf-8")
+    solution = kp.load(path).run()["fall"]
+    k = int(np.abs(solution.t - T).argmin())
+    expected = {}
+    for element, (i, j) in CAM_KINDS[kind].items():
+        force = np.array([solution[f"{element}.fx"][k], solution[f"{element}.fy"][k]])
+        for on, sign in ((i, -1), (j, 1)):
+            owner = (on or "").split(".")[0]
+            if owner and (owner == body if body else sign == 1):
+                expected[f"{np.hypot(*force):#.3g} N on {owner}"] = sign * force
+    texts, arrows = drawn(one, tmp_path, kind, len(expected))
+    assert sorted(texts) == sorted(expected)
+    headings = {tuple(np.round(line[2:] / np.hypot(*line[2:]), 2)) for line in arrows}
+    found = {
+        tuple(np.round(np.array([x, -y]) / np.hypot(x, y), 2) + 0.0) for x, y in expected.values()
+    }
+    assert all(min(np.hypot(*np.subtract(one_, own)) for own in headings) < 0.02 for one_ in found)
+    if kind == "Forces" and body != "rod":  # both forces on the bar act at its point Q
+        x, y = one.screen(*(float(solution[f"bar.Q.{axis}"][k]) for axis in "xy"))
+        box = one.page.locator("#sheet").bounding_box()
+        assert box
+        begins = np.abs(arrows[:, :2] - [x - box["x"], y - box["y"]]).max(axis=1) < 1
+        assert begins.sum() == len(expected)

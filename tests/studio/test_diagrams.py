@@ -199,3 +199,46 @@ def test_diagrams_of_machines_of_all_sizes(
     path = tmp_path / "slot.toml"
     path.write_text(scaled(length, mass, rate), encoding="utf-8")
     assert compare(one, path) > 0
+
+
+#: A block that rests on the floor with two corners; its lengths are multiplied by SIZE.
+RESTING = """kempe = 1
+gravity = [{g}, -9.81]
+[bodies.ground]
+points = {{}}
+curves = {{ floor = {{ line = [[{far}, 0], [-{far}, 0]] }} }}
+[bodies.block]
+type = "body"
+mass = {m}
+inertia = {j}
+through = {{ P = [-{w}, {h}], Q = [{w}, {h}] }}
+curves = {{ rim = {{ polygon = [[-{w}, -{h}], [{w}, -{h}], [{w}, {h}], [-{w}, {h}]] }} }}
+[forces.touch]
+type = "contact"
+curves = ["block.rim", "ground.floor"]
+restitution = 0
+friction = 0.3
+[analyses.rest]
+type = "dynamics"
+t_end = 0.1
+output_step = 0.01
+"""
+
+
+@pytest.mark.parametrize(("length", "mass"), [(1.0, 1.0), (1e-3, 1e-3), (1e3, 1e3)])
+def test_a_contact_at_rest_is_one_load(
+    one: Studio, tmp_path: Path, length: float, mass: float
+) -> None:
+    """The equations that hold the corners are no loads beside that of the contact."""
+    width, high = 0.2 * length, 0.1 * length
+    inertia_of = mass * (width**2 + high**2) / 3
+    path = tmp_path / "rest.toml"
+    text = RESTING.format(g=1.0, far=5 * length, m=mass, j=inertia_of, w=width, h=high)
+    path.write_text(text, encoding="utf-8")
+    _, solution = solved(path)
+    one.load(text)
+    assert one.call("kempe.run('rest')")["error"] is None
+    found = one.call("kempe.diagrams(5)")
+    check_loads(found, solution(float(solution.t[5])))
+    touch = found["free"]["block"]["loads"][0]
+    assert touch["force"] == pytest.approx([-mass, 9.81 * mass], rel=1e-6)

@@ -1,22 +1,29 @@
-//! Scene and display list of a mechanism in its current pose.
+//! Scene and display list of a mechanism in its current pose and over its last run.
 
 use crate::convert::Fields;
 use crate::fault::Fault;
 use crate::loaded::Loaded;
+use crate::run::Ran;
 use kempe::equations::kinematics::Motions;
 use kempe_drawing::scene::efforts;
 use kempe_drawing::{display as list, scene as make, Pose, Request, Scene, View};
 use serde_json::{json, Value};
 
-/// The static part of the scene: bodies, joints, symbols, bounds, unit of lengths and gravity.
-pub fn scene(loaded: &Loaded) -> Result<Value, Fault> {
-    let scene = serde_json::to_value(made(loaded)).map_err(|e| Fault::new(e.to_string()))?;
+/// The largest number of instants for which names are laid out.
+const LAID_OUT: usize = 20;
+
+/// The static part of the scene: bodies, joints, symbols, bounds, unit of lengths and gravity. Slots and guides are as long
+/// as the travel of a run.
+pub fn scene(loaded: &Loaded, ran: Option<&Ran>) -> Result<Value, Fault> {
+    let scene = made(loaded, &poses(loaded, ran));
+    let scene = serde_json::to_value(scene).map_err(|e| Fault::new(e.to_string()))?;
     Ok(json!({ "scene": scene }))
 }
 
 /// The display list for an area in points, and the view for which names are laid out.
-pub fn display(loaded: &Loaded, fields: &Fields<'_>) -> Result<Value, Fault> {
-    let scene = made(loaded);
+pub fn display(loaded: &Loaded, ran: Option<&Ran>, fields: &Fields<'_>) -> Result<Value, Fault> {
+    let poses = poses(loaded, ran);
+    let scene = made(loaded, &poses);
     let size = [fields.number("width")?, fields.number("height")?];
     let view = View::around(scene.bounds, size);
     let shown = |name: &str| fields.get(name) != Some(&Value::Bool(false));
@@ -27,27 +34,33 @@ pub fn display(loaded: &Loaded, fields: &Fields<'_>) -> Result<Value, Fault> {
         elements: shown("names"),
         ..all
     };
-    let items = list(&scene, &[poses(loaded)], &view, &request);
+    let some: Vec<_> = poses.iter().step_by(poses.len().div_ceil(LAID_OUT)).cloned().collect();
+    let items = list(&scene, &some, &view, &request);
     let items = serde_json::to_value(items).map_err(|e| Fault::new(e.to_string()))?;
     Ok(json!({ "items": items, "low": view.low, "scale": view.scale }))
 }
 
-fn made(loaded: &Loaded) -> Scene {
+fn made(loaded: &Loaded, poses: &[Vec<Pose>]) -> Scene {
     let state = std::slice::from_ref(&loaded.state);
     // accelerations, and therefore efforts, exist only if the mechanism closes
     let efforts = match loaded.assembled {
         true => efforts(&loaded.model, state),
         false => Vec::new(),
     };
-    make(&loaded.model, &[poses(loaded)], &efforts)
+    make(&loaded.model, poses, &efforts)
 }
 
-fn poses(loaded: &Loaded) -> Vec<Pose> {
+/// The poses of the moving bodies now, and at the outputs of a run.
+fn poses(loaded: &Loaded, ran: Option<&Ran>) -> Vec<Vec<Pose>> {
     let (layout, state) = (&loaded.model.layout, &loaded.state);
     let motions = Motions::at_rest(layout, &state.q);
     let pose = |body: usize| {
         let pose = &motions[body].pose;
         [pose.r.x, pose.r.y, pose.angle]
     };
-    (1..loaded.model.bodies.len()).map(pose).collect()
+    let present = (1..loaded.model.bodies.len()).map(pose).collect();
+    let rows = ran.and_then(|ran| ran.frames().ok()).unwrap_or_default();
+    let width = 1 + 3 * (loaded.model.bodies.len() - 1);
+    let row = |row: &[f64]| row[1..].chunks_exact(3).map(|at| [at[0], at[1], at[2]]).collect();
+    std::iter::once(present).chain(rows.chunks_exact(width).map(row)).collect()
 }

@@ -3,7 +3,7 @@
 use crate::convert::row;
 use crate::fault::Fault;
 use kempe::analyses::dynamics::{Prepared, Run, States};
-use kempe::elements::BodyId;
+use kempe::elements::{BodyId, Group};
 use kempe::equations::actions::{self, each_action};
 use kempe::equations::forces::Acting;
 use kempe::equations::kinematics::Motions;
@@ -78,8 +78,11 @@ fn loads(model: &Model, motions: &Motions, acting: Acting<'_, f64>) -> Vec<Value
             "force": [load.force.x, load.force.y], "moment": load.torque,
         }));
     };
-    let shown = model.constraints.iter().enumerate().filter(|(_, item)| item.element.in_files());
-    for (k, item) in shown {
+    for (k, item) in model.constraints.iter().enumerate() {
+        // the equation of a force that holds is a part of the force
+        if item.group == Group::Forces || !item.element.in_files() {
+            continue;
+        }
         let kind = item.group.section().trim_end_matches('s');
         for on in touched(model, k) {
             let load = actions::reaction(model, k, on, Frame::Global, motions, acting);

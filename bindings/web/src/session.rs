@@ -71,8 +71,8 @@ impl Session {
             "readiness" => Ok(readiness(self.loaded()?)),
             "quantities" => self.quantities(fields.get("of_run").is_some()),
             "quantity" => self.quantity(fields.text("name")?),
-            "scene" => scene(self.loaded()?),
-            "display" => display(self.loaded()?, fields),
+            "scene" => scene(self.present()?, self.ran.as_ref()),
+            "display" => display(self.present()?, self.ran.as_ref(), fields),
             "live" => self.begin(),
             "advance" => self.advance(fields.number("by")?),
             "pull" => self.pull(fields),
@@ -100,7 +100,7 @@ impl Session {
     /// The exercise of the case, for the seed of the request or of the case.
     fn exercise(&self, fields: &Fields<'_>) -> Result<Exercise<'_>, Fault> {
         let seed = fields.get("seed").map(|_| fields.number("seed")).transpose()?;
-        let loaded = self.loaded.as_ref().ok_or_else(no_mechanism)?;
+        let loaded = self.present()?;
         Exercise::read(loaded, seed.map(|seed| seed as u64))
     }
 
@@ -111,6 +111,10 @@ impl Session {
 
     fn loaded(&mut self) -> Result<&mut Loaded, Fault> {
         self.loaded.as_mut().ok_or_else(no_mechanism)
+    }
+
+    fn present(&self) -> Result<&Loaded, Fault> {
+        self.loaded.as_ref().ok_or_else(no_mechanism)
     }
 
     fn last_run(&self) -> Result<&Ran, Fault> {

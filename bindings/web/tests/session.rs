@@ -184,3 +184,22 @@ fn every_example_is_drawn() {
     let items = page.ask(bare)["items"].clone();
     assert!(items.as_array().expect("items").iter().all(|item| item["kind"] != "text"));
 }
+
+#[test]
+fn the_drawing_covers_the_last_run() {
+    let mut page = Page::of(&example("scotch_yoke"));
+    let reach = |page: &mut Page| -> Value {
+        let scene = page.ask(json!({ "do": "scene" }))["scene"].clone();
+        let symbols = scene["symbols"].as_array().expect("symbols").clone();
+        symbols.iter().find(|symbol| symbol["element"] == "slot").expect("a slot")["reach"].clone()
+    };
+    assert_eq!(reach(&mut page), json!([0.0, 0.0]));
+    page.ask(json!({ "do": "run", "analysis": "turns" }));
+    let found = reach(&mut page);
+    assert!((number(&found[0]) + 0.08).abs() < 1e-4, "{found}");
+    assert!((number(&found[1]) - 0.08).abs() < 1e-4, "{found}");
+    let size = json!({ "do": "display", "width": 600, "height": 400 });
+    assert!(!page.ask(size)["items"].as_array().expect("items").is_empty());
+    page.ask(json!({ "do": "load", "text": example("scotch_yoke") }));
+    assert_eq!(reach(&mut page), json!([0.0, 0.0]));
+}

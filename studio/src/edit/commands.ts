@@ -46,7 +46,11 @@ export async function remove(): Promise<void> {
   if (!chosen) return;
   const { group, name, point } = chosen;
   selection.value = null;
-  await change(point ? removedPoint(tree.value, name, point) : removed(tree.value, group, name));
+  const changes = point ? removedPoint(tree.value, name, point) : removed(tree.value, group, name);
+  const gone = changes.filter(({ path }) => path.length === 2 && path[0] !== "start").map(({ path }) => path[1]!);
+  const others = gone.filter((one) => one !== name);
+  const done = await change(changes);
+  if (done && others.length) announce("done", texts.edit.removed(point ? `${name}.${point}` : name, others));
 }
 
 /** A copy of a body beside it, without its joints. */

@@ -1,5 +1,6 @@
 // Opening and saving case files.
 
+import { enter } from "../modes/modes";
 import { restart } from "../modes/place";
 import { withAnalysis } from "../modes/starting";
 import { file as caseFile, open } from "../store/document";
@@ -28,7 +29,9 @@ gravity = [0, -9.81]
 points = {}
 `;
 
+/** Begin a case on an empty sheet, ready to draw. */
 export async function begin(): Promise<void> {
+  enter("edit");
   restart(null);
   await open(EMPTY);
 }

@@ -40,7 +40,7 @@ import { texts } from "../texts";
 import { alikeOf, coordinateOf } from "./coordinate";
 import type { Handler, Spot } from "./handler";
 import { lengthNow, readLength } from "./length";
-import { curveUnder, jointUnder, ownerUnder, pivotOf, type Under, under } from "./refer";
+import { curveUnder, isJoined, jointUnder, ownerUnder, pivotOf, type Under, under } from "./refer";
 import { bodyUnder, links, points } from "./seen";
 
 let places: Place[] = [];
@@ -315,7 +315,7 @@ async function referenceOf(active: Tool, field: Field, spot: Spot): Promise<stri
   const taken = new Set(Object.values(chosen).map((one) => String(one).split(".")[0]!));
   const wheel = field.doc.startsWith("Centre");
   const found = under(spot, taken, wheel || active.references.length === 1);
-  const pivot = wheel && found.body && !found.fresh ? pivotOf(found.body) : null;
+  const pivot = wheel && found.body && !isJoined(found.fresh) ? pivotOf(found.body) : null;
   if (pivot) {
     const hit = points().find(({ body, point }) => body === found.body && point === pivot)!;
     return pointUnder(spot, { ...found, fresh: hit });

@@ -20,20 +20,27 @@ export function under(spot: Spot, taken: ReadonlySet<string>, moves = false): Un
   const hits = pointsUnder(spot);
   const others = hits.filter(({ body }) => !taken.has(body.name));
   const moving = others.find(({ body }) => !body.ground);
-  const prefers = moves || (moving && !isPinned(moving, hits));
+  const prefers = moves || (moving && !isFixed(moving, hits));
   const fresh = (prefers && moving) || (others[0] ?? hits[0]);
   return { spot, hits, fresh, body: fresh?.body ?? bodyUnder(spot, taken) ?? bodyUnder(spot) };
 }
 
-/** Whether a pin holds a point at another one of some points. */
-function isPinned(point: PointHit, hits: readonly PointHit[]): boolean {
+/** Whether a pin holds a point at one of some points of the ground. */
+function isFixed(point: PointHit, hits: readonly PointHit[]): boolean {
   const name = ({ body, point: own }: PointHit) => `${body.name}.${own}`;
-  const others = hits.filter((hit) => hit !== point).map(name);
+  const others = hits.filter(({ body }) => body.ground).map(name);
   const pins = new Set(catalogue.value.joints.filter(isPin).map((type) => type.name));
   return Object.values(entries(tree.value, "joints")).some(({ type, i, j }) => {
     const ends = [String(i), String(j)];
     return pins.has(String(type)) && ends.includes(name(point)) && ends.some((end) => others.includes(end));
   });
+}
+
+/** Whether a joint is at a point of a body. */
+export function isJoined(hit: PointHit | undefined): boolean {
+  if (!hit) return false;
+  const name = `${hit.body.name}.${hit.point}`;
+  return Object.values(entries(tree.value, "joints")).some(({ i, j }) => i === name || j === name);
 }
 
 /** The point about which a body turns: one that is pinned, to the ground if possible. */

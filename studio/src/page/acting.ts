@@ -40,14 +40,15 @@ type Named = Drawn & { name?: string; element?: string };
 function ends(group: Group, element: string, { bodies, points }: Drawn): End[] {
   const written = entry(tree.value, group, element) ?? {};
   const fields = typeOf(catalogue.value, group, element, written)?.fields ?? [];
-  // An element that moves along a curve of body j acts at the point of body i.
-  const along = fields.some(({ name, shape }) => name === "j" && shape === "curve");
+  // An element on a curve of body j acts at the point of body i.
+  const curve = fields.find(({ shape }) => shape === "curve")?.name;
   const end = (body: number, from: number, point: Point | null, sign: End["sign"]): End[] => {
     const pose = poses.value[from];
     return pose && point ? [{ element, body, at: placed(pose as Triple, point), sign }] : [];
   };
-  const [i, j] = [written.i, written.j].map((reference, k) => numberOf(reference) ?? bodies[k]!) as [number, number];
-  const k = along ? 0 : 1;
+  const references = [written.i, written[curve ?? "j"]];
+  const [i, j] = references.map((reference, k) => numberOf(reference) ?? bodies[k]!) as [number, number];
+  const k = curve ? 0 : 1;
   return [...end(i, bodies[0], points[0], -1), ...end(j, bodies[k], points[k], 1)];
 }
 

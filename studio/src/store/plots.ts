@@ -2,7 +2,8 @@
 import { effect, signal } from "@preact/signals";
 import type { Stored } from "../give/stored";
 import { course, quantities, variable } from "../modes/read";
-import { loads, openings } from "./state";
+import { moving } from "../plot/moving";
+import { loads, mechanism, openings, scene } from "./state";
 
 export interface PlotOf {
   key: number;
@@ -28,7 +29,7 @@ effect(() => {
   opening = openings.peek();
 });
 
-/** The first run of a case plots the angles of the bodies. Later runs keep the plotted quantities that still exist. */
+/** The first run of a case plots bodies that move. Later runs keep the plotted quantities that still exist. */
 effect(() => {
   if (!course.value || !quantities.value.length) return;
   const all = new Set(quantities.value.map(({ name }) => name));
@@ -37,14 +38,15 @@ effect(() => {
     .map((one) => ({ ...one, names: one.names.filter((name) => all.has(name)) }))
     .filter(({ names }) => names.length);
   if (kept.length) plots.value = kept;
-  else plots.value = [{ key: 1, names: firstOf(quantities.value.map(({ name, unit }) => ({ name, unit }))) }];
+  else plots.value = [{ key: 1, names: firstOf(course.value, all) }];
 });
 
-const MOST = 3;
-
-function firstOf(all: { name: string; unit: string }[]): string[] {
-  const unit = all.some((one) => one.unit === "rad") ? "rad" : all[0]!.unit;
-  const first = all.filter((one) => one.unit === unit).slice(0, MOST);
-  const others = first.filter(({ name }) => name !== variable.value.name);
-  return (others.length ? others : first).map(({ name }) => name);
+/** The angles of some bodies that turn, otherwise the coordinate of a body that shifts. */
+function firstOf({ rows, width }: { rows: Float64Array; width: number }, all: ReadonlySet<string>): string[] {
+  const bodies = mechanism.peek()?.bodies.slice(1) ?? [];
+  const [x0, y0, x1, y1] = scene.peek()?.bounds ?? [0, 0, 1, 1];
+  const names = bodies.flatMap(({ name }) => ["x", "y", "angle"].map((part) => `${name}.${part}`));
+  const offered = (k: number) => all.has(names[k]!) && names[k] !== variable.peek().name;
+  const found = moving(rows, width, Math.hypot(x1 - x0, y1 - y0), offered);
+  return found.length ? found.map((k) => names[k]!) : [...all].slice(0, 1);
 }
