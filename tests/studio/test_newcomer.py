@@ -90,3 +90,63 @@ def test_the_first_plot_shows_what_moves(one: Studio) -> None:
     one.wait("!!document.querySelector('.plot')")
     words = one.page.locator(".plot").first.inner_text()
     assert "crank.angle" in words and "yoke.angle" not in words.split("Add a quantity")[0]
+
+
+def test_a_cantilever_is_drawn_and_its_bending_moment_read(hands: Hands) -> None:
+    one = hands.one
+    hands.new()
+    hands.use("ground", (-0.5, 0.0))
+    hands.use("beam", (-0.5, 0.0), (0.5, 0.0))
+    beam = one.tree()["bodies"]["beam1"]
+    assert beam["ends"] == ["A", "B"] and beam["section"] == {"rectangle": [0.02, 0.02]}
+    hands.select((-0.5, 0.0))
+    hands.key("Delete")  # the pin, for a weld
+    hands.use("weld", (-0.5, 0.0), (-0.5, 0.0))
+    hands.use("force", (0.5, 0.0))
+    assert one.tree()["forces"]["force1"]["j"] == "beam1.B"
+    hands.fill("force", "0; -100")
+    hands.read()
+    found = one.call("kempe.values(['beam1.bending_moment', 'beam1.B.y'])")
+    moment, tip = (row[-1] for row in found["rows"])
+    line, stiffness = 7850 * 0.02**2 * 9.81, 210e9 * 0.02**4 / 12
+    assert moment == pytest.approx(100.0 + line / 2, rel=2e-3)
+    assert tip == pytest.approx(-(100 / 3 + line / 8) / stiffness, rel=5e-3)
+
+
+def test_no_point_is_added_within_a_beam(hands: Hands) -> None:
+    """A beam has points at lengths along it, not in a frame."""
+    hands.new()
+    hands.use("ground", (-0.5, 0.0))
+    hands.use("beam", (-0.5, 0.0), (0.5, 0.0))
+    hands.use("bar", (0.5, 0.0), (0.7, 0.2))
+    assert hands.one.tree()["joints"]["B"]["i"] == "beam1.B"
+    before = hands.one.toml()
+    hands.use("force", (0.2, 0.0))
+    assert "no point here" in hands.one.message()
+    assert hands.one.toml() == before
+    hands.select((0.2, 0.0))
+    assert hands.one.page.locator("#add-point").count() == 0
+
+
+def test_a_run_is_in_view_unless_the_view_was_enlarged(one: Studio) -> None:
+    def places() -> list[bool]:
+        box = one.page.locator("#sheet").bounding_box()
+        assert box
+        circle = [(0.1, 0.0), (-0.1, 0.0), (0.0, 0.1), (0.0, -0.1), (0.4, 0.0)]
+        return [
+            0 <= x - box["x"] <= box["width"] and 0 <= y - box["y"] <= box["height"]
+            for x, y in (one.screen(*place) for place in circle)
+        ]
+
+    one.load((EXAMPLES / "slider_crank.toml").read_text(encoding="utf-8"))
+    one.mode("read")
+    one.wait("!document.querySelector('#run')?.disabled", 30.0)
+    one.settle()
+    assert all(places())
+    one.mode("edit")
+    for _ in range(4):
+        one.page.keyboard.press("+")
+    one.mode("read")
+    one.wait("!document.querySelector('#run')?.disabled", 30.0)
+    one.settle()
+    assert not all(places())

@@ -25,17 +25,12 @@ export interface Tool {
 export function toolsOf(catalogue: Catalogue): Tool[] {
   const bodies = catalogue.bodies.length ? MACHINES : [];
   return [
-    ...GROUPS.flatMap((group) => catalogue[group].filter(isDrawn).map((type) => toolOf(group, type))),
+    ...GROUPS.flatMap((group) => catalogue[group].map((type) => toolOf(group, type))),
     ...bodies.map((name): Tool => {
       const type = { name, doc: texts.machines[name], fields: [] };
       return { ...toolOf("bodies", type), placing: name };
     }),
   ];
-}
-
-/** Whether clicks make an entry of a type. One with a cross section is written in the text. */
-function isDrawn({ fields }: Type): boolean {
-  return fields.every(({ shape }) => shape !== "section");
 }
 
 function toolOf(group: Group, type: Type): Tool {

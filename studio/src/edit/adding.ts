@@ -1,6 +1,6 @@
 // Changes of the text that add bodies, points and elements.
 import { type Catalogue, type Field, isPin } from "../catalogue/catalogue";
-import type { Placing, Tool } from "../catalogue/tools";
+import type { Tool } from "../catalogue/tools";
 import { entries, entry, freeName, freePointNames, isTable } from "../catalogue/tree";
 import type { Body, Change, Tree, Value } from "../core/protocol";
 import type { PointHit } from "../plane/hits";
@@ -46,7 +46,7 @@ export function addBody(
     if (found !== null) value[field.name] = found;
   }
   if (placing === "one") value.at = places[0]!.at;
-  else Object.assign(value, placedBody(placing, names, places));
+  else Object.assign(value, placedBody({ type, placing }, names, places));
   const point = placing === "one" ? onlyPoint(type.doc) : null;
   const changes: Change[] = [{ path: ["bodies", name], value }];
   const taken = new Set<string>();
@@ -59,9 +59,16 @@ function onlyPoint(doc: string): string {
   return /point, (\w+)/.exec(doc)?.[1] ?? "P";
 }
 
-function placedBody(placing: Placing | null, names: string[], places: Place[]): Tree {
-  const table = Object.fromEntries(places.map(({ at }, k) => [names[k]!, at as Value]));
-  return placing === "two" ? { through: table } : { through: table, center: middleIn(places.map(({ at }) => at)) };
+function placedBody({ type, placing }: Pick<Tool, "type" | "placing">, names: string[], places: Place[]): Tree {
+  const at = places.map((place) => place.at);
+  if (isElastic(type.fields)) return { through: at, ends: names };
+  const table = Object.fromEntries(at.map((one, k) => [names[k]!, one as Value]));
+  return placing === "two" ? { through: table } : { through: table, center: middleIn(at) };
+}
+
+/** Whether a body bends: it has a cross section. */
+function isElastic(fields: readonly Field[]): boolean {
+  return fields.some(({ shape }) => shape === "section");
 }
 
 /** The middle of some places in the frame of their body, whose x axis points from the first to the second place. */
@@ -80,9 +87,15 @@ function middleOf(at: Point[]): Point {
   return [mean(at.map(([x]) => x)), mean(at.map(([, y]) => y))];
 }
 
-/** Mass and moment of inertia of a new body: 1 kg, spread over its points. */
-function ownValue({ unit }: Field, at: Point[]): Value | null {
+/** Mass and moment of inertia of a new body: 1 kg, spread over its points. A new beam is of steel, slender and damped. */
+function ownValue({ unit, shape }: Field, at: Point[]): Value | null {
   if (unit === "kg") return 1;
+  if (unit === "Pa") return "210 GPa";
+  if (unit === "kg/m^3") return 7850;
+  const long = distance(at[0]!, at.at(-1)!);
+  const part = (share: number) => Number((share * long).toPrecision(2));
+  if (shape === "section") return { rectangle: [part(1 / 50), part(1 / 50)] };
+  if (unit === "s") return part(1e-3);
   if (unit !== "kg*m^2") return null;
   const middle = middleOf(at);
   return Number(Math.max(1e-6, mean(at.map((one) => distance(one, middle) ** 2)) / 2).toPrecision(3));
@@ -92,9 +105,14 @@ function mean(values: number[]): number {
   return values.reduce((sum, one) => sum + one, 0) / values.length;
 }
 
+/** The names of all points. Those of a beam are bodies, such as `beam.B`. */
+function pointNames(bodies: readonly Body[]): string[] {
+  return bodies.flatMap(({ name, points }) => [...Object.keys(points), ...name.split(".").slice(1)]);
+}
+
 /** Names of the points of a new body: those of the places where it is pinned, otherwise new letters. */
 function namesFor(places: Place[], tree: Tree | null, bodies: readonly Body[]): string[] {
-  const taken = bodies.flatMap(({ points }) => Object.keys(points));
+  const taken = pointNames(bodies);
   const fresh = freePointNames(tree, taken, places.length);
   const used = new Set<string>();
   return places.map(({ hits }) => {
@@ -131,7 +149,7 @@ function entryNames(tree: Tree | null): string[] {
 }
 
 function addGroundPoint(at: Point, { tree, bodies }: Pick<Case, "tree" | "bodies">): Added {
-  const taken = bodies.flatMap(({ points }) => Object.keys(points));
+  const taken = pointNames(bodies);
   const [name] = freePointNames(tree, taken, 1);
   return { changes: [pointChange(tree, GROUND, name!, at)], name: GROUND };
 }
@@ -164,7 +182,7 @@ export function pointReference(
   const hit = place.hits[0];
   if (hit) return { reference: `${hit.body.name}.${hit.point}`, changes: [] };
   const name = body?.name ?? GROUND;
-  const used = [...bodies.flatMap(({ points }) => Object.keys(points)), ...taken];
+  const used = [...pointNames(bodies), ...taken];
   const [point] = freePointNames(tree, used, 1);
   const pose = body ? poses[bodies.indexOf(body)] : undefined;
   return { reference: `${name}.${point}`, changes: [pointChange(tree, name, point!, tidied(place.at), pose)] };

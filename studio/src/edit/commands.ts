@@ -148,6 +148,12 @@ export function takesCurves(name: string): boolean {
   return type?.fields.some(({ shape }) => shape === "curves") ?? false;
 }
 
+/** Whether a body takes further points in its frame; a beam and its parts take none. */
+export function takesPoints(name: string): boolean {
+  const type = typeOf(catalogue.value, "bodies", name, entry(tree.value, "bodies", name));
+  return !name.includes(".") && (type?.fields.some(({ shape }) => shape === "points") ?? false);
+}
+
 /** Add a curve to a body; returns its name, or null if that failed. */
 export async function addCurve(name: string): Promise<string | null> {
   const body = mechanism.value?.bodies.find((one) => one.name === name);

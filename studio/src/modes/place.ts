@@ -9,7 +9,7 @@ import { displayed } from "../draw/display";
 import { gridStep, snapStep } from "../draw/measure";
 import { besideUnit, roundQuantity, significant } from "../draw/numbers";
 import { type Added, addBody, type Case, GROUND, type Place, pointReference } from "../edit/adding";
-import { addCurve, swap, takesCurves } from "../edit/commands";
+import { addCurve, swap, takesCurves, takesPoints } from "../edit/commands";
 import { addMachine, isMachine } from "../edit/composing";
 import type { Motion } from "../edit/driving";
 import { addElement, type Scale, wheelShare } from "../edit/element";
@@ -41,7 +41,7 @@ import { alikeOf, coordinateOf } from "./coordinate";
 import type { Handler, Spot } from "./handler";
 import { lengthNow, readLength } from "./length";
 import { curveUnder, isJoined, jointUnder, ownerUnder, pivotOf, type Under, under } from "./refer";
-import { bodyUnder, links, points } from "./seen";
+import { bodyUnder, links, points, targets } from "./seen";
 
 let places: Place[] = [];
 let chosen: Record<string, Value> = {};
@@ -128,7 +128,7 @@ function present(): Case {
 
 function snapHere(spot: Spot): Snapped {
   return snapped(spot.at, {
-    points: points().map(({ at }) => at),
+    points: targets().map(({ at }) => at),
     lines: links(),
     step: snapStep(view),
     scale: view.scale,
@@ -151,7 +151,7 @@ function labelOf(line: Point[]): string {
 async function clickPlace(active: Tool, spot: Spot): Promise<void> {
   if (places.length && !(await readLength())) return;
   const { at } = snapHere(spot);
-  const hits = points().filter((hit) => distance(hit.at, at) * view.scale < 0.5);
+  const hits = targets().filter((hit) => distance(hit.at, at) * view.scale < 0.5);
   if (places.some((one) => distance(one.at, at) * view.scale < 2)) return;
   places.push({ at, hits });
   if (places.length > 1) typedLength.value = "";
@@ -321,7 +321,7 @@ async function referenceOf(active: Tool, field: Field, spot: Spot): Promise<stri
     return pointUnder(spot, { ...found, fresh: hit });
   }
   if (shape === "body") return found.body?.name ?? GROUND;
-  if (shape === "point") return pointUnder(spot, found);
+  if (shape === "point") return found.fresh || takesPoints(found.body?.name ?? GROUND) ? pointUnder(spot, found) : null;
   if (shape === "joint") return jointUnder(found);
   if (shape === "curve") return curveUnder(found);
   const owner = ownerUnder(found);

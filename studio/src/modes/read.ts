@@ -6,7 +6,7 @@ import { plainly } from "../store/blame";
 import { diagram } from "../store/diagram";
 import { note } from "../store/note";
 import { redraw, report, Superseded, send, showPresent } from "../store/session";
-import { fitWith, preview, view } from "../store/sheet";
+import { fitMotion, fitWith, preview, view } from "../store/sheet";
 import { announce, mechanism, mode, openings, pose, poses, selection } from "../store/state";
 import { texts } from "../texts";
 import { Frames } from "./frames";
@@ -148,7 +148,7 @@ async function showMotion(ok: Ran, end?: { stops: Stops; swings: boolean }): Pro
     time.value = frames.t[0] ?? 0;
     quantities.value = all;
   });
-  void redraw().catch(report); // slots and guides are as long as the travel
+  void fitMotion(redraw).catch(report); // slots and guides are as long as the travel
   if (end) showEnd(end.stops, end.swings);
   else if (ok.error) announce("problem", plainly(ok.error.message), ok.error.hint ? { hint: ok.error.hint } : {});
   else announce("done", texts.read.done(ok.count, variable.value.name, written(ok.t_end, variable.value.unit)));

@@ -5,7 +5,7 @@ import type { Body } from "../core/protocol";
 import type { PointHit } from "../plane/hits";
 import { catalogue, mechanism, tree } from "../store/state";
 import type { Spot } from "./handler";
-import { bodyUnder, elementUnder, pointsUnder } from "./seen";
+import { bodyUnder, elementUnder, pointsUnder, targets } from "./seen";
 
 /** Points and body under the pointer. Bodies that are not yet chosen come first. */
 export interface Under {
@@ -17,7 +17,7 @@ export interface Under {
 
 /** A moving body comes before the ground unless it is pinned to it there; with `moves`, also then. */
 export function under(spot: Spot, taken: ReadonlySet<string>, moves = false): Under {
-  const hits = pointsUnder(spot);
+  const hits = pointsUnder(spot, targets());
   const others = hits.filter(({ body }) => !taken.has(body.name));
   const moving = others.find(({ body }) => !body.ground);
   const prefers = moves || (moving && !isFixed(moving, hits));

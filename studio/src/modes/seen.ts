@@ -12,6 +12,23 @@ export function points(): PointHit[] {
   return allPoints(mechanism.value?.bodies ?? [], poses.value);
 }
 
+/** The points that a tool can use: also those of a beam, each of which has a frame of its own. */
+export function targets(): PointHit[] {
+  const bodies = mechanism.value?.bodies ?? [];
+  const nodes = bodies.flatMap(({ name }, k): PointHit[] => {
+    const [owner, point] = name.split(".");
+    const body = bodies.find((one) => one.name === owner);
+    const pose = poses.value[k];
+    return body && pose && point && isName(point) ? [{ body, point, at: [pose[0], pose[1]] }] : [];
+  });
+  return [...points(), ...nodes];
+}
+
+/** Whether a part of a beam has a name; others have numbers. */
+function isName(point: string): boolean {
+  return !point.startsWith("#");
+}
+
 /** The links of bodies, as lines between their points, without some bodies. */
 export function links(without: ReadonlySet<string> = new Set()): [Point, Point][] {
   return (mechanism.value?.bodies ?? []).flatMap((body, k) => {
@@ -24,8 +41,8 @@ export function links(without: ReadonlySet<string> = new Set()): [Point, Point][
   });
 }
 
-export function pointsUnder(spot: Spot): PointHit[] {
-  return pointsAt(spot.px, points(), view, reachOf(spot.touch));
+export function pointsUnder(spot: Spot, among = points()): PointHit[] {
+  return pointsAt(spot.px, among, view, reachOf(spot.touch));
 }
 
 /** The topmost body under the pointer, without some bodies. */

@@ -2,7 +2,18 @@
 import { type Group, spoken, typeOf } from "../catalogue/catalogue";
 import { entry, isTable } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
-import { addCurve, addPoint, copy, mirror, remove, rename, setLength, swap, takesCurves } from "../edit/commands";
+import {
+  addCurve,
+  addPoint,
+  copy,
+  mirror,
+  remove,
+  rename,
+  setLength,
+  swap,
+  takesCurves,
+  takesPoints,
+} from "../edit/commands";
 import { hasSides } from "../edit/swapping";
 import { openOutline } from "../give/outline";
 import { report } from "../store/session";
@@ -56,7 +67,7 @@ function Entry({ group, name, value }: { group: Group; name: string; value: Tree
         <Button label={texts.outline.open} hint={texts.outline.hint} onClick={() => openOutline(name)} id="outline" />
       ) : null}
       <div class="buttons end">
-        {type?.fields.some(({ name: own }) => own === "points") ? (
+        {group === "bodies" && takesPoints(name) ? (
           <Button label={words.addPoint} hint={words.addPointHint} onClick={() => void addPoint(name)} id="add-point" />
         ) : null}
         {group === "bodies" && takesCurves(name) ? (

@@ -46,6 +46,20 @@ export function fitWith(points: readonly Point[]): void {
   fit();
 }
 
+/** Draw a motion with `draw`, and show all of it if all of the mechanism was in view before. */
+export async function fitMotion(draw: () => Promise<void>): Promise<void> {
+  const whole = inView();
+  await draw();
+  if (whole && !inView()) fit();
+}
+
+/** Whether all of the scene is in view. */
+function inView(): boolean {
+  const [x0, y0, x1, y1] = scene.peek()?.bounds ?? [0, 0, 0, 0];
+  const [[left, bottom], [right, top]] = [view.toScreen([x0, y0]), view.toScreen([x1, y1])];
+  return left >= 0 && top >= 0 && right <= view.width && bottom <= view.height;
+}
+
 export function zoom(factor: number): void {
   view.zoom(factor);
   viewChanged();
