@@ -150,3 +150,22 @@ def test_a_run_is_in_view_unless_the_view_was_enlarged(one: Studio) -> None:
     one.wait("!document.querySelector('#run')?.disabled", 30.0)
     one.settle()
     assert not all(places())
+
+
+def test_a_typed_place_is_that_of_the_whole_pin(hands: Hands) -> None:
+    one = hands.one
+    hands.new()
+    hands.use("ground", (-0.4, -0.2), (0.2, -0.2))
+    hands.bars((-0.4, -0.2), (-0.3, 0.1), (-0.3, 0.1), (0.3, 0.3), (0.3, 0.3), (0.2, -0.2))
+    hands.select((0.0, 0.2))
+    names = list(one.tree()["bodies"]["bar2"]["through"])
+    hands.fill(names[0], "-0,35; 0,05")
+    bodies = one.tree()["bodies"]
+    assert bodies["bar1"]["through"][names[0]] == bodies["bar2"]["through"][names[0]]
+    assert one.quantity("bar1.angle") == pytest.approx(np.arctan2(0.25, 0.05))
+    hands.key("Escape")
+    hands.press(".contents button:has-text('ground')")
+    first = next(iter(bodies["ground"]["points"]))
+    hands.fill(first, "-0.5; -0.25")
+    bodies = one.tree()["bodies"]
+    assert bodies["bar1"]["through"][first] == bodies["ground"]["points"][first] == [-0.5, -0.25]

@@ -128,6 +128,20 @@ export async function setLength(name: string, given: string): Promise<void> {
   if ((await change(changes)) && !found.kept) announce("info", texts.edit.notKept(name));
 }
 
+/**
+ * Bring a point of a body to a typed place, with all that is pinned there. False if another number determines one of these
+ * points, or if the place is not one of the plane.
+ */
+export async function placePoint(body: string, part: string, point: string, to: Value): Promise<boolean> {
+  const bodies = mechanism.value?.bodies ?? [];
+  const all = allPoints(bodies, poses.value);
+  const own = all.find((hit) => hit.body.name === body && hit.point === point);
+  if (!own || !(part === "through" || own.body.ground) || !isPlain(to) || (to as Value[]).length !== 2) return false;
+  const hits = all.filter(({ at }) => distance(at, own.at) * view.scale < 0.5);
+  const { changes, fixed } = moved(tree.value, hits, poses.value, bodies, to as Point);
+  return !fixed.length && change(changes);
+}
+
 /** Add a point beside the middle of a body, to be dragged to its place. */
 export async function addPoint(name: string): Promise<void> {
   const bodies = mechanism.value?.bodies ?? [];

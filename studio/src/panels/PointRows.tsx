@@ -1,6 +1,7 @@
 // Named points of a body, one row for each.
 import type { Field } from "../catalogue/catalogue";
-import type { Tree } from "../core/protocol";
+import type { Tree, Value } from "../core/protocol";
+import { placePoint } from "../edit/commands";
 import { removedPoint } from "../edit/removing";
 import { typedList, writtenList } from "../edit/values";
 import { change } from "../store/document";
@@ -8,6 +9,11 @@ import { selection, tree } from "../store/state";
 import { texts } from "../texts";
 import { put } from "./Field";
 import { Button } from "./parts";
+
+/** A typed place of the plane is that of all points that are pinned there; other values are those of one point. */
+async function write(part: string, body: string, point: string, value: Value): Promise<void> {
+  if (!(await placePoint(body, part, point, value))) put(["bodies", body, part, point], value);
+}
 
 export function PointRows({ field, body, value }: { field: Field; body: string; value: Tree }) {
   const rows = Object.entries(value);
@@ -32,7 +38,7 @@ export function PointRows({ field, body, value }: { field: Field; body: string; 
             onFocus={() => (selection.value = { group: "bodies", name: body, point })}
             onChange={(event) => {
               const list = typedList(event.currentTarget.value);
-              if (list) put(["bodies", body, field.name, point], list);
+              if (list) void write(field.name, body, point, list);
             }}
           />
           <Button
