@@ -218,3 +218,5 @@ def test_forces_on_curves_act_on_both_bodies(
         assert box
         begins = np.abs(arrows[:, :2] - [x - box["x"], y - box["y"]]).max(axis=1) < 1
         assert begins.sum() == len(expected)
+    one.page.get_by_label(kind, exact=True).uncheck()
+    one.page.locator("#on-body").select_option("")

@@ -229,7 +229,7 @@ output_step = 0.01
 def test_a_contact_at_rest_is_one_load(
     one: Studio, tmp_path: Path, length: float, mass: float
 ) -> None:
-    """The equations that hold the corners are no loads beside that of the contact."""
+    """The equations that hold the corners are a part of the contact."""
     width, high = 0.2 * length, 0.1 * length
     inertia_of = mass * (width**2 + high**2) / 3
     path = tmp_path / "rest.toml"

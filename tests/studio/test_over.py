@@ -165,6 +165,8 @@ def test_arrows_over_the_quantity_have_its_units_and_a_note(one: Studio, tmp_pat
     opened(one, tmp_path, crank_rocker, turn)
     labels(one)
     note = "forces with inertia and damping at 1 rad/s"
+    for kind in ("Velocities", "Reactions"):
+        one.page.get_by_label(kind).uncheck()
     one.page.get_by_label("Velocities").check()
     one.wait("window.sheet.some(text => /m\\/° coupler/.test(text))")
     assert note not in one.call("() => window.sheet")

@@ -116,7 +116,7 @@ def test_pictures_of_the_plots_have_axes_curves_and_legends(one: Studio, tmp_pat
     path = given(one, "Save the plots as SVG", tmp_path / "plots.svg")
     root = ET.fromstring(path.read_text(encoding="utf-8"))
     written = [one.text or "" for one in root.iter(f"{SVG}text")]
-    for text in ("angle / °", "rod.omega / rpm", "t / s"):
+    for text in ("rod.angle / °", "rod.omega / rpm", "t / s"):
         assert text in written
     assert any(text.startswith("rod.omega  ") for text in written)
     longest = sorted(len(one.get("d", "")) for one in root.iter(f"{SVG}path"))[-2:]
