@@ -169,12 +169,3 @@ def test_a_typed_place_is_that_of_the_whole_pin(hands: Hands) -> None:
     hands.fill(first, "-0.5; -0.25")
     bodies = one.tree()["bodies"]
     assert bodies["bar1"]["through"][first] == bodies["ground"]["points"][first] == [-0.5, -0.25]
-
-
-def test_the_slider_of_a_speed_has_its_unit(one: Studio) -> None:
-    one.load((EXAMPLES / "classics" / "crank_exercise.toml").read_text(encoding="utf-8"))
-    one.page.locator("#tab-main").click()
-    sliders = one.page.locator(".sliders")
-    sliders.locator("summary").click()
-    assert "300.0 rpm" in sliders.inner_text()
-    sliders.locator("summary").click()

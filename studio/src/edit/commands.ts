@@ -47,8 +47,7 @@ export async function remove(): Promise<void> {
   const { group, name, point } = chosen;
   selection.value = null;
   const changes = point ? removedPoint(tree.value, name, point) : removed(tree.value, group, name);
-  const gone = changes.filter(({ path }) => path.length === 2 && path[0] !== "start").map(({ path }) => path[1]!);
-  const others = gone.filter((one) => one !== name);
+  const others = changes.flatMap(({ path }) => (path.length === 2 && path[1] !== name ? path[1]! : []));
   const done = await change(changes);
   if (done && others.length) announce("done", texts.edit.removed(point ? `${name}.${point}` : name, others));
 }

@@ -33,7 +33,7 @@ export function evenLaw(
   const own = rateOf(motion.name);
   const rates = set.filter(({ name }) => name === own || (motion.alone && isRate(name)));
   const speed = freeName(tree, "speed");
-  const begin = beginOf(set.find(({ name }) => name === motion.name)) ?? present(motion, degrees);
+  const begin = beginOf(set.find(({ name }) => name === motion.name)) ?? String(motion.value);
   const value = speedOf(motion, rates.find(({ name }) => name === own)?.value) ?? firstSpeed(motion, length, degrees);
   return {
     law: `${begin} + ${speed}*t`,
@@ -42,12 +42,6 @@ export function evenLaw(
       { path: ["parameters", speed], value: value },
     ],
   };
-}
-
-/** The value at the start in the units of the display, with more digits than a position has. */
-function present({ value, unit }: Motion, degrees: boolean): string {
-  if (unit !== "rad" || !degrees) return String(value);
-  return `${Number(((value * 180) / Math.PI).toPrecision(14))}*deg`;
 }
 
 /** A prescribed value of the start as a part of a formula, with a unit as a factor; undefined if that is impossible. */

@@ -12,21 +12,16 @@ export function points(): PointHit[] {
   return allPoints(mechanism.value?.bodies ?? [], poses.value);
 }
 
-/** The points that a tool can use: also those of a beam, each of which has a frame of its own. */
+/** The points that a tool can use: also those of a beam, which are bodies; its nameless parts have a #. */
 export function targets(): PointHit[] {
   const bodies = mechanism.value?.bodies ?? [];
   const nodes = bodies.flatMap(({ name }, k): PointHit[] => {
     const [owner, point] = name.split(".");
     const body = bodies.find((one) => one.name === owner);
     const pose = poses.value[k];
-    return body && pose && point && isName(point) ? [{ body, point, at: [pose[0], pose[1]] }] : [];
+    return body && pose && point && point[0] !== "#" ? [{ body, point, at: [pose[0], pose[1]] }] : [];
   });
   return [...points(), ...nodes];
-}
-
-/** Whether a part of a beam has a name; others have numbers. */
-function isName(point: string): boolean {
-  return !point.startsWith("#");
 }
 
 /** The links of bodies, as lines between their points, without some bodies. */

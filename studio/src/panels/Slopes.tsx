@@ -4,7 +4,6 @@ import type { Tree } from "../core/protocol";
 import { CoreError } from "../core/transport";
 import { displayed } from "../draw/display";
 import { minus, significant } from "../draw/numbers";
-import { speedsOf } from "../edit/driving";
 import { Draft } from "../store/document";
 import { report, send } from "../store/session";
 import { loads, mechanism, openings, tree, units } from "../store/state";
@@ -77,17 +76,11 @@ export function Sliders() {
   const all = mechanism.value?.parameters ?? [];
   if (!all.length) return null;
   const found = slopes.value?.of === loads.value ? slopes.value : null;
-  const speeds = new Map(speedsOf(tree.value, all).map(({ parameter, unit }) => [parameter, unit]));
   return (
     <details class="sliders">
       <summary>{words.title}</summary>
       {all.map((one) => (
-        <Slider
-          key={one.name}
-          {...one}
-          unit={speeds.get(one.name) ?? one.unit}
-          slope={found ? told(found, one.name, one.value, one.unit) : ""}
-        />
+        <Slider key={one.name} {...one} slope={found ? told(found, one.name, one.value, one.unit) : ""} />
       ))}
       <form
         class="adding"

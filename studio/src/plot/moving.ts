@@ -30,8 +30,8 @@ export function moving(
   const largest = Math.max(...angles.map(change));
   const all = Math.max(...angles.map((k) => ranges[k]![1])) - Math.min(...angles.map((k) => ranges[k]![0]));
   if (angles.length && largest > VISIBLE * all) return angles;
-  const positions = visible.filter((k) => k % 3 !== 2).sort((a, b) => change(b) - change(a));
-  return positions.length ? positions.slice(0, 1) : angles;
+  const most = visible.filter((k) => k % 3 !== 2).sort((a, b) => change(b) - change(a))[0];
+  return most === undefined ? angles : [most];
 }
 
 function rangeOf(column: Float64Array): [number, number] {
