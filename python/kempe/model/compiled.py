@@ -67,7 +67,6 @@ class CompiledModel:
         self._model = model
         self._case = case
         self._analyses: Mapping[str, Any] | None = None
-        self._about: dict[str, Any] = json.loads(core.describe())
 
     @classmethod
     def from_case(cls, case: str) -> CompiledModel:
@@ -110,6 +109,12 @@ class CompiledModel:
     def _refuse_functions(self) -> None:
         if self.functions:
             refuse_saving(self.functions)
+
+    @cached_property
+    def _about(self) -> dict[str, Any]:
+        """The content of the model in numbers."""
+        about: dict[str, Any] = json.loads(self.core.describe())
+        return about
 
     @cached_property
     def tree(self) -> Mapping[str, Any]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -45,13 +45,17 @@ class EventTimes:
     Attributes:
         name: its name, such as ``hit``, or joint and event, such as ``cam.lift_off``.
         t: its times, (n_events,), s.
-        states: the state at each time; at the impact of a contact, the state before the impact.
     """
 
     name: str
     t: Floats
-    states: tuple[State, ...]
     _impulses: Floats
+    _read: Callable[[], tuple[State, ...]]
+
+    @cached_property
+    def states(self) -> tuple[State, ...]:
+        """The state at each time; at the impact of a contact, the state before the impact."""
+        return self._read()
 
     def impulse(self, joint: str, *, on: str) -> Floats:
         """The impulse of a joint on a body at each time, (n_events, 2), N·s, global.
@@ -87,17 +91,16 @@ def events(solution: Solution) -> Mapping[str, EventTimes]:
     for name, t, q, v, z, impulses in solution._run.events:
         if name in found:
             continue  # a further part of a contact, whose events are those of the first part
-        at = zip(t, q, v, z, strict=True)
-        states = tuple(solution._state_before(float(t), *of) for t, *of in at)
-        found[name] = EventTimes(name, fixed(t), states, fixed(impulses))
+        read = partial(_states_before, solution, t, q, v, z)
+        found[name] = EventTimes(name, fixed(t), fixed(impulses), read)
     for joint, info in solution.compiled.constraints.items():
         for (quantity, _), event in zip(info.results, info.events, strict=True):
             if event is not None:
                 name = f"{joint}.{event}"
                 times = _times(solution, partial(_result, joint, quantity))
-                states = _states(solution, times)
+                read = partial(_states, solution, times)
                 none = np.zeros((len(times), solution.compiled.n_multipliers))
-                found[name] = EventTimes(name, fixed(np.array(times)), states, fixed(none))
+                found[name] = EventTimes(name, fixed(np.array(times)), fixed(none), read)
     return MappingProxyType(found)
 
 
@@ -158,6 +161,10 @@ def _holds(state: State, condition: str) -> bool:
 
 def _result(joint: str, quantity: str, motion: Motion) -> Floats:
     return np.atleast_1d(getattr(motion.constraint(joint), quantity))
+
+
+def _states_before(solution: Solution, *rows: Floats) -> tuple[State, ...]:
+    return tuple(solution._state_before(float(t), *of) for t, *of in zip(*rows, strict=True))
 
 
 def _states(solution: Solution, times: list[float]) -> tuple[State, ...]:

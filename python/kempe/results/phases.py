@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -19,32 +19,57 @@ if TYPE_CHECKING:
 Settings: TypeAlias = "Sequence[tuple[int, Setting]]"
 
 
+class PhaseModels:
+    """The model of each phase, made when it is first asked for."""
+
+    def __init__(self, base: CompiledModel, settings: Settings) -> None:
+        self._base = base
+        self._settings = settings
+        self._made: dict[int, CompiledModel] = {}
+
+    def __len__(self) -> int:
+        return len(self._settings)
+
+    def __iter__(self) -> Iterator[CompiledModel]:
+        return (self[phase] for phase in range(len(self)))
+
+    def __getitem__(self, phase: int) -> CompiledModel:
+        if phase not in self._made:
+            self._made[phase] = self._base.variant(self._settings[phase][1])
+        return self._made[phase]
+
+
 class Phases:
     """The models of the rows of a run.
 
     Attributes:
         models: the model of each phase.
+        firsts: the first row of each phase in the run.
         of_row: the phase of each row.
     """
 
-    def __init__(self, models: Sequence[CompiledModel], of_row: NDArray[np.intp]) -> None:
+    def __init__(
+        self, models: PhaseModels, firsts: NDArray[np.intp], of_row: NDArray[np.intp]
+    ) -> None:
         self.models = models
+        self.firsts = firsts
         self.of_row = of_row
 
     def at(self, of_row: NDArray[np.intp]) -> Phases:
         """The phases for a selection of rows."""
-        return Phases(self.models, of_row)
+        return Phases(self.models, self.firsts, of_row)
 
     def evaluate(
         self, evaluate: Callable[..., Sequence[Floats]], *rows: Floats | None
     ) -> Sequence[Floats]:
         """Values of the core at rows, each by the model of its phase."""
         found: list[Floats] = []
-        for phase in np.unique(self.of_row):
-            own = self.of_row == phase
-            core: _core.Model = self.models[phase].core
+        order = np.argsort(self.of_row, kind="stable")
+        begins = np.flatnonzero(np.diff(self.of_row[order])) + 1
+        for own in np.split(order, begins) if len(order) else []:
+            core: _core.Model = self.models[int(self.of_row[own[0]])].core
             values = evaluate(core, *(None if row is None else row[own] for row in rows))
-            found = found or [np.empty((len(own), *x.shape[1:])) for x in values]
+            found = found or [np.empty((len(order), *x.shape[1:])) for x in values]
             for whole, part in zip(found, values, strict=True):
                 whole[own] = part
         return tuple(found) if found else evaluate(self.models[0].core, *rows)
@@ -52,7 +77,6 @@ class Phases:
 
 def phases(compiled: CompiledModel, settings: Settings, count: int) -> Phases:
     """The phases of a run with a given number of rows."""
-    models = [compiled.variant(setting) for _, setting in settings]
     firsts = np.array([first for first, _ in settings], dtype=np.intp)
     of_row = np.searchsorted(firsts, np.arange(count), side="right") - 1
-    return Phases(models, np.maximum(of_row, 0))
+    return Phases(PhaseModels(compiled, settings), firsts, np.maximum(of_row, 0))

@@ -239,7 +239,7 @@ class Solution(WithSlopes, Tables, Motion):
         """The state of an event, with the parameters and drivers before it."""
         model = self.compiled
         if self._phases is not None:
-            firsts = np.array([first for first, _ in self._run.settings])
+            firsts = self._phases.firsts
             before = max(int(np.searchsorted(self.t[firsts], t)) - 1, 0)
             # where a law jumps, the rows at this time belong to the next phase
             if t == self.t[firsts[min(before + 1, len(firsts) - 1)]]:
@@ -294,7 +294,7 @@ class Solution(WithSlopes, Tables, Motion):
         """The phases at times; at the time of a change, the phase after it."""
         if self._phases is None:
             return None
-        firsts = np.array([first for first, _ in self._run.settings])
+        firsts = self._phases.firsts
         begins = self.t[firsts]
         # where a law jumps, the rounding errors of this time belong to the phase after it
         jumps = (firsts > 0) & (self.t[firsts - 1] != begins)
