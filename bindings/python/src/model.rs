@@ -60,7 +60,7 @@ impl PyModel {
             .open(&self.model)
             .map_err(|problems| raise_plain(py, Kind::Model, &problems))?;
         let marked = (!setting.modes.is_empty()).then(|| open.marked(&setting.modes));
-        let mut varied = Self::new(Arc::new(open), Arc::clone(&self.definition));
+        let mut varied = Self::new(Arc::new(open.into_owned()), Arc::clone(&self.definition));
         varied.active = Active::of_phase(&varied.prepared, setting);
         varied.model = marked.map_or(varied.model, Arc::new);
         varied.setting = setting.clone();

@@ -13,6 +13,7 @@ use super::State;
 use crate::integrate::Flow;
 use crate::math::Listed;
 use crate::model::{did_you_mean, Model, Problem, WORKS};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A quantity that can be evaluated at states.
@@ -80,7 +81,7 @@ pub fn measure_of_run(model: &Model, run: &Run, measure: &Measure) -> Vec<f64> {
     let mut found = Vec::with_capacity(t.len());
     for phase in 0..run.phases.len() {
         let setting = run.settings.get(phase).unwrap_or(&plain);
-        let active = setting.open(model).unwrap_or_else(|_| model.clone());
+        let active = setting.open(model).unwrap_or(Cow::Borrowed(model));
         let first = run.phases[phase];
         for k in first..first + run.states_of(phase).t.len() {
             let quantities: Vec<f64> = rows.iter().map(|row| row[k]).list();

@@ -6,7 +6,7 @@
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
-use crate::math::Listed;
+use crate::math::{Listed, Real};
 use crate::model::{size, Model};
 
 /// Largest depth beyond a stop or contact that counts as touching, relative to the size of the mechanism or in rad.
@@ -18,9 +18,9 @@ pub fn is_rigid(model: &Model, force: usize) -> bool {
 }
 
 /// The size of the mechanism for a gap that is a length, 1 rad for one that is an angle.
-pub fn unit(model: &Model, force: usize) -> f64 {
+pub fn unit<S: Real>(model: &Model<S>, size: f64, force: usize) -> f64 {
     let measured = model.forces[force].element.measured().first();
-    measured.map(|of| of.kind).unwrap_or_default().scale(size(model))
+    measured.map(|of| of.kind).unwrap_or_default().scale(size)
 }
 
 /// The stops and contacts with restitution of a model, without those for which a run has decided.
@@ -42,7 +42,8 @@ impl RigidContacts {
         let (motions, z) = (Motions::at_rest(&model.layout, q), vec![0.0; model.layout.n_z]);
         let acting = Acting { z: &z, lam: None, t };
         let gap = |k: &usize| (*k, forces::threshold(model, *k, &motions, acting));
-        self.0.iter().map(gap).find(|(k, gap)| *gap < -depth * unit(model, *k))
+        let size = size(model);
+        self.0.iter().map(gap).find(|(k, gap)| *gap < -depth * unit(model, size, *k))
     }
 
     /// The first one beyond which a position is: its name and its gap.

@@ -7,6 +7,7 @@ use super::problem::Problem;
 use super::{checks, parameters};
 use crate::elements::{Group, Mode};
 use crate::expression::Expression;
+use crate::math::Listed;
 use std::sync::Arc;
 
 impl Model {
@@ -60,6 +61,23 @@ impl Model {
     pub fn with_phases(&self, changes: Vec<(String, f64)>) -> Self {
         let mut blueprint = Blueprint::clone(&self.blueprint);
         blueprint.phases.extend(changes);
+        Self::new(&Arc::new(blueprint), &self.parameters)
+    }
+
+    /// The model with only these forces, in order, all as forces of their own. The friction of a contact needs the
+    /// contact.
+    pub fn with_forces(&self, kept: &[usize]) -> Self {
+        let all = &self.blueprint;
+        let first = all.forces.len() - all.companions.len();
+        let contact = |of: usize| kept.binary_search(&of).expect("friction has its contact");
+        let companions = kept.iter().filter(|k| **k >= first);
+        let companions = companions.map(|k| all.companions[*k - first].map(contact)).list();
+        let blueprint = Blueprint {
+            forces: Arc::new(kept.iter().map(|k| all.forces[*k].clone()).list()),
+            further: Arc::default(),
+            companions: Arc::new(companions),
+            ..(**all).clone()
+        };
         Self::new(&Arc::new(blueprint), &self.parameters)
     }
 

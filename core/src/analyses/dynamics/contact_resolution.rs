@@ -123,7 +123,7 @@ impl Onset {
     ) -> Result<Option<Self>, Breakdown> {
         let model = ode.model;
         let mut y = y.to_vec();
-        let speed = -StateAt { t, y: &mut y }.gap_rate(lifted, force);
+        let speed = -StateAt::new(lifted, t, &mut y).gap_rate(lifted, force);
         let gradient = gradient(lifted, (t, &mut y.clone()), force);
         let response =
             ode.workspace.velocity_jump(model, t, model.layout.split(&y)[0], &gradient)?;
@@ -155,7 +155,7 @@ fn gradient(model: &Model<Jet>, (t, y): (f64, &mut [f64]), force: usize) -> Vec<
         if let Some(k) = one {
             v[k] = 1.0;
         }
-        StateAt { t, y }.gap_rate(model, force)
+        StateAt::new(model, t, y).gap_rate(model, force)
     };
     let still = rate(None);
     let mut gradient = vec![0.0; model.layout.n_q];

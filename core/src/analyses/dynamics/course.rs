@@ -268,7 +268,7 @@ impl PhasedRun {
         };
         let fired: Vec<usize> = at.fired.iter().filter_map(of_force).list();
         let (t, before) = (at.t, at.y.clone());
-        let mut place = StateAt { t, y: &mut at.y };
+        let mut place = StateAt::new(&*open, t, &mut at.y);
         let ended = (fired.as_slice(), stall.ceased.as_slice());
         let settled = modes::settle(&open, &mut place, &setting.modes, ended, *impacts)?;
         stall.note(&setting.modes, &settled.modes);
@@ -381,7 +381,7 @@ fn check_modes(
         _ => None,
     };
     let later: Vec<String> = events.iter().filter_map(released).list();
-    modes::check(model, &StateAt { t: at.t, y: &mut at.y }, &later)
+    modes::check(model, &StateAt::new(model, at.t, &mut at.y), &later)
 }
 
 /// Whether any force holds in a phase.

@@ -25,7 +25,7 @@ use crate::equations::kinematics::Motions;
 use crate::equations::newton_euler::{self, Balances};
 use crate::integrate::Flow;
 use crate::math::Listed;
-use crate::model::{row_scales, Model, WORKS};
+use crate::model::{row_scales, size, Model, WORKS};
 use serde::{Deserialize, Serialize};
 
 /// Opening of a joint without projection, relative to the size or in rad, beyond which the result has a doubt.
@@ -164,8 +164,9 @@ impl Guard {
         let (mut phi, scales) = (vec![0.0; model.layout.n_rows], row_scales(model));
         let exact = run.passed.is_empty() && !model.allow_redundancy;
         let beside = if exact { 0.0 } else { BESIDE };
+        let size = size(model);
         let contacts: Vec<(usize, f64)> =
-            rigid_contacts(model).map(|k| (k, gap_unit(model, k))).list();
+            rigid_contacts(model).map(|k| (k, gap_unit(model, size, k))).list();
         let mut motions = Motions::new(&model.layout);
         for (t, [q, v, z]) in each(model, states) {
             motions.place(&model.layout, q, v);

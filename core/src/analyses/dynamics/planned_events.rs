@@ -10,7 +10,7 @@ use crate::analyses::conditions::Condition;
 use crate::analyses::event_options::STOP;
 use crate::integrate::Direction;
 use crate::math::Listed;
-use crate::model::Model;
+use crate::model::{size, Model};
 
 /// The effect of an event.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,7 +110,7 @@ pub(super) fn watched<'c>(
     released: &[String],
     options: &Options,
 ) -> Vec<Watched<'c>> {
-    let accuracy = options.method.control().rtol.min(LOOSEST);
+    let (accuracy, size) = (options.method.control().rtol.min(LOOSEST), size(model));
     let watched = events.iter().zip(conditions).map(|(event, condition)| {
         if let Effect::Mode { force, place } = event.effect {
             let (function, direction) = watched_mode(model, force, place);
@@ -120,7 +120,7 @@ pub(super) fn watched<'c>(
             let keeps = place == 0 && model.forces[force].element.keeps_speed();
             let ends = (has_mode || rubs) && place != modes::GRAZE || keeps;
             // a compliant contact acts as soon as the gap is negative
-            let error = accuracy * modes::gap_unit(model, force);
+            let error = accuracy * modes::gap_unit(model, size, force);
             let shallow = if modes::is_contact(model, force) { error } else { 0.0 };
             return Watched {
                 name: &event.name,

@@ -5,6 +5,7 @@ use crate::equations::energy;
 use crate::equations::kinematics::Motions;
 use crate::model::{ForceMode, Model, Problem};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Parameters that differ from the parameters of the model, drivers that are released, and the modes of forces that
 /// have modes.
@@ -49,19 +50,22 @@ impl Setting {
     /// All parameters and numbers with impossible values.
     pub fn model(&self, model: &Model) -> Result<Model, Vec<Problem>> {
         let open = self.open(model)?;
-        Ok(if self.modes.is_empty() { open } else { open.in_modes(&self.modes) })
+        Ok(if self.modes.is_empty() { open.into_owned() } else { open.in_modes(&self.modes) })
     }
 
     /// The model with these parameters and without these drivers. The modes of forces are not set.
     ///
     /// # Errors
     /// The errors of [`model`](Self::model).
-    pub fn open(&self, model: &Model) -> Result<Model, Vec<Problem>> {
+    pub fn open<'m>(&self, model: &'m Model) -> Result<Cow<'m, Model>, Vec<Problem>> {
         let changed = match self.parameters.is_empty() {
-            true => model.clone(),
-            false => model.with_values(&self.parameters)?,
+            true => Cow::Borrowed(model),
+            false => Cow::Owned(model.with_values(&self.parameters)?),
         };
-        Ok(if self.released.is_empty() { changed } else { changed.without(&self.released) })
+        Ok(match self.released.is_empty() {
+            true => changed,
+            false => Cow::Owned(changed.without(&self.released)),
+        })
     }
 
     /// The kinetic and potential energy of a state y = (q, v, z, works), J.

@@ -6,7 +6,7 @@ use crate::analyses::rigid::{unit, RigidContacts, TOUCHING};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::math::{each, Jet, Lift, Listed};
-use crate::model::Model;
+use crate::model::{size, Model};
 
 /// Rates and accelerations of a gap count as zero below this fraction of the largest ones of the state.
 const STILL: f64 = 1e-9;
@@ -56,7 +56,7 @@ fn look(
         let Jet { value, rate, second } = forces::threshold(&lifted, *k, &motions, acting);
         let name = model.forces[*k].name.clone();
         let into = rate < -fastest || rate <= fastest && second < -strongest;
-        let message = match value < -TOUCHING * unit(model, *k) {
+        let message = match value < -TOUCHING * unit(model, size(model), *k) {
             true => format!("the state is beyond {name} at t = {t:.6} s: its gap is {value:.3e}"),
             false if into => {
                 format!("{name} acts at t = {t:.6} s; only a run decides its reaction or impact")

@@ -38,7 +38,7 @@ pub fn friction_modes(
         let row = k * n..(k + 1) * n;
         let [q, v, z] = [&q[row.clone()], &v[row], &z[k * n_z..(k + 1) * n_z]];
         let mut y = [q, v, z, &vec![0.0; model.layout.n_works]].concat();
-        let mut place = StateAt { t: *t, y: &mut y };
+        let mut place = StateAt::new(model, *t, &mut y);
         let still = STILL * place.speed_scale(model, &[]);
         let slow = place.thresholds(model, &all).iter().any(|speed| speed.abs() <= still);
         if !slow && !drivers.iter().any(|own| drivers_rest(model, *own, *t, q)) {

@@ -70,7 +70,7 @@ pub(super) fn keep_closed(
     let rates = place.gap_rates(model, touching);
     for (k, rate) in touching.iter().zip(rates) {
         let Some(own) = modes.iter_mut().find(|of| of.force == *k) else { continue };
-        if own.mode != Mode::Free || rate > StateAt::slow(model, *k) {
+        if own.mode != Mode::Free || rate > place.slow(model, *k) {
             continue;
         }
         let mut tried = held.clone();

@@ -8,7 +8,7 @@ use super::super::failure::Failure;
 use super::companions;
 use super::dependence::{holders_of_friction, independent};
 use super::impacts::{self, restitution};
-use super::place::{drivers_rest, largest, mode_of, unit, with_modes, StateAt, STILL};
+use super::place::{drivers_rest, largest, mode_of, with_modes, StateAt, STILL};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
@@ -124,7 +124,7 @@ fn give_slack(
         let at = touching.iter().position(|k| *k == own.force);
         own.slack = match (own.mode, at) {
             (Mode::Free, Some(at)) => {
-                let slow = rates[at] <= StateAt::slow(model, own.force);
+                let slow = rates[at] <= place.slow(model, own.force);
                 let rounding = if slow { place.rounding(model, own.force) } else { 0.0 };
                 let depth = (-gaps[at]).max(0.0);
                 match before.iter().find(|of| of.force == own.force) {
@@ -184,7 +184,7 @@ fn at_rest(
         let rests = |(k, gap): &(&usize, Jet)| {
             let (restitution, rest_speed) = restitution(model, **k);
             // bounces without losses here that are damped elsewhere become ever more frequent
-            let least = if restitution < 1.0 { 0.0 } else { LOW * unit(model, **k) };
+            let least = if restitution < 1.0 { 0.0 } else { LOW * place.unit(model, **k) };
             let height = least.max(place.rounding(model, **k));
             gap.rate <= rest_speed || 0.5 * gap.rate * gap.rate <= -gap.second * height
         };

@@ -33,7 +33,7 @@ use super::super::passages::Struck;
 use super::super::redundant_rows::workspace_at;
 use super::dependence::holders;
 use super::impact::{driver_work, Impact, Restitutions};
-use super::place::{mode_of, unit, with_modes, StateAt, STILL};
+use super::place::{mode_of, with_modes, StateAt, STILL};
 use super::{companions, friction_impact};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::energy;
@@ -75,7 +75,7 @@ pub(super) fn touching(model: &Model, place: &StateAt<'_>, before: &[ForceMode])
     let all: Vec<usize> = with_modes(model).filter(impacts).list();
     let gaps = place.thresholds(model, &all);
     let touches = |(k, gap): &(usize, f64)| {
-        matches!(mode_of(before, *k), Mode::Holds(_)) || StateAt::is_closed(*gap, model, *k)
+        matches!(mode_of(before, *k), Mode::Holds(_)) || place.is_closed(*gap, model, *k)
     };
     all.into_iter().zip(gaps).filter(touches).map(|(k, _)| k).list()
 }
@@ -100,7 +100,7 @@ pub(super) fn resolve(
     let plastic = touching.iter().all(|k| restitution(model, *k).0 == 0.0);
     for round in 0.. {
         let rates = place.gap_rates(model, touching);
-        let approaching = approaching(model, touching, &rates);
+        let approaching = approaching(model, place, touching, &rates);
         if approaching.is_empty() {
             break;
         }
@@ -159,12 +159,17 @@ fn free_of_drivers(model: &Model, place: &StateAt<'_>, k: usize) -> Result<(), B
 
 /// The places of the touching contacts that approach faster than they may rest, and faster than the rounding errors of
 /// contacts that rest while others hit.
-fn approaching(model: &Model, touching: &[usize], rates: &[f64]) -> Vec<usize> {
-    let relative = |(k, rate): (&usize, &f64)| rate.abs() / unit(model, *k);
+fn approaching(
+    model: &Model,
+    place: &StateAt<'_>,
+    touching: &[usize],
+    rates: &[f64],
+) -> Vec<usize> {
+    let relative = |(k, rate): (&usize, &f64)| rate.abs() / place.unit(model, *k);
     let fastest = touching.iter().zip(rates).map(relative).fold(0.0, f64::max);
     let fast = |at: &usize| {
         let k = touching[*at];
-        rates[*at] < -restitution(model, k).1.max(STILL * fastest * unit(model, k))
+        rates[*at] < -restitution(model, k).1.max(STILL * fastest * place.unit(model, k))
     };
     (0..touching.len()).filter(fast).list()
 }
@@ -205,8 +210,8 @@ fn together(
     // each contact enters once, or again after it was released
     for _ in 0..touching.len() * touching.len() {
         model.layout.split_mut(&mut y)[1].copy_from_slice(&impact.after);
-        let rates = StateAt { t: place.t, y: &mut y }.gap_rates(model, touching);
-        let mut others = approaching(model, touching, &rates);
+        let rates = place.with(&mut y).gap_rates(model, touching);
+        let mut others = approaching(model, place, touching, &rates);
         others.retain(|at| held.iter().all(|(own, _)| own != at));
         let next = others.into_iter().min_by(|a, b| rates[*a].total_cmp(&rates[*b]));
         let Some(next) = next else { break };

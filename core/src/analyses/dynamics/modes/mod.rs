@@ -11,6 +11,7 @@
 //! | `dependence` | which forces can hold together, and the modes of the others |
 //! | `friction_impact` | impacts of contacts with friction, and of all closed contacts together |
 //! | `holding` | contacts that rest and friction that sticks |
+//! | `taking_part` | the mechanism without the contacts that are apart |
 
 mod at_rest;
 mod companions;
@@ -21,6 +22,7 @@ mod impact;
 mod impacts;
 mod mode_events;
 mod place;
+mod taking_part;
 
 pub use at_rest::{can_stick, friction_modes};
 pub(in crate::analyses) use mode_events::{watched_mode, ModeFunction};
@@ -37,6 +39,7 @@ use crate::elements::{Behaviour, Mode};
 use crate::model::{ForceMode, Model};
 use dependence::keep_closed;
 use impacts::Hits;
+use taking_part::TakingPart;
 
 /// The modes of the next phase, and what happened.
 #[derive(Clone, Debug, Default)]
@@ -71,16 +74,13 @@ pub(super) fn settle(
     law: (ImpactOrder, RestitutionLaw),
 ) -> Result<Settled, Box<Failure>> {
     let touching = impacts::touching(model, place, before);
-    let fastest = largest(place.state(model)[1]);
-    let Hits { hits, impulses, impacts, couples, ended } =
-        impacts::resolve(model, place, &touching, law)?;
-    let jumped = (!hits.is_empty()).then_some(fastest);
-    let mut modes = holding::decide(model, place, before, (&touching, jumped), at_once)?;
-    companions::check(model, place, &modes)?;
-    keep_closed(model, place, &touching, &mut modes);
-    let collapsed = !ended.is_empty();
-    let mut changed = ended.into_iter().map(|k| (k, COLLAPSE)).list();
-    for (old, new) in before.iter().zip(&modes) {
+    let part = TakingPart::of(model, &touching);
+    let own = (part.places(&touching), part.modes(before));
+    let at_once = (part.places(at_once.0), part.places(at_once.1));
+    let found = settle_part(&part.model, place, (&own.0, &own.1), (&at_once.0, &at_once.1), law)?;
+    let mut settled = part.whole(model, found);
+    let Settled { modes, hits, changed, .. } = &mut settled;
+    for (old, new) in before.iter().zip(modes) {
         let sticks = matches!(model.forces[old.force].element.behaviour(), Some(Behaviour::Sticks));
         match (old.mode.holds(), new.mode.holds(), sticks) {
             // its contact separates
@@ -90,6 +90,26 @@ pub(super) fn settle(
             _ => {}
         }
     }
+    Ok(settled)
+}
+
+/// Determines the modes of forces that take part.
+fn settle_part(
+    model: &Model,
+    place: &mut StateAt<'_>,
+    (touching, before): (&[usize], &[ForceMode]),
+    at_once: (&[usize], &[usize]),
+    law: (ImpactOrder, RestitutionLaw),
+) -> Result<Settled, Box<Failure>> {
+    let fastest = largest(place.state(model)[1]);
+    let Hits { hits, impulses, impacts, couples, ended } =
+        impacts::resolve(model, place, touching, law)?;
+    let jumped = (!hits.is_empty()).then_some(fastest);
+    let mut modes = holding::decide(model, place, before, (touching, jumped), at_once)?;
+    companions::check(model, place, &modes)?;
+    keep_closed(model, place, touching, &mut modes);
+    let collapsed = !ended.is_empty();
+    let changed = ended.into_iter().map(|k| (k, COLLAPSE)).list();
     Ok(Settled { modes, hits, impulses, impacts, couples, collapsed, changed })
 }
 
@@ -107,7 +127,7 @@ pub(super) fn check(
     let all: Vec<usize> = rigid_contacts(model).list();
     for (k, gap) in all.iter().zip(place.thresholds(model, &all)) {
         let name = model.forces[*k].name.clone();
-        if StateAt::is_closed(-gap, model, *k) {
+        if place.is_closed(-gap, model, *k) {
             continue;
         }
         let message = format!("the state is beyond {name} at t = {t:.6} s: its gap is {gap:.3e}");

@@ -31,9 +31,31 @@ const ROUNDING: f64 = 64.0;
 pub struct StateAt<'y> {
     pub t: f64,
     pub y: &'y mut [f64],
+    /// The size of the mechanism.
+    size: f64,
+    /// The largest coordinate in units of its scale, at least 1.
+    far: f64,
 }
 
-impl StateAt<'_> {
+impl<'y> StateAt<'y> {
+    /// A state of a model.
+    pub fn new<S: Real>(model: &Model<S>, t: f64, y: &'y mut [f64]) -> Self {
+        let q = model.layout.split(y)[0];
+        let scaled = q.iter().zip(column_scales(model)).map(|(q, scale)| q.abs() / scale);
+        let far = scaled.fold(1.0, f64::max);
+        Self { t, y, size: size(model), far }
+    }
+
+    /// A state with the same coordinates.
+    pub fn with<'o>(&self, y: &'o mut [f64]) -> StateAt<'o> {
+        StateAt { y, ..*self }
+    }
+
+    /// The size of the mechanism for a gap that is a length, 1 rad for one that is an angle.
+    pub fn unit(&self, model: &Model, force: usize) -> f64 {
+        unit(model, self.size, force)
+    }
+
     /// q, v and z.
     pub fn state<S: Real>(&self, model: &Model<S>) -> [&[f64]; 3] {
         let [q, v, z, _] = model.layout.split(self.y);
@@ -58,7 +80,7 @@ impl StateAt<'_> {
         let fastest = largest(self.state(model)[1]);
         let workspace = self.solved(&model.in_modes(modes));
         let accelerations = workspace.map_or(0.0, |workspace| largest(workspace.a()));
-        fastest.max((size(model) * accelerations).sqrt())
+        fastest.max((self.size * accelerations).sqrt())
     }
 
     /// The functions whose zeros may change the modes of forces: gaps or speeds.
@@ -113,7 +135,7 @@ impl StateAt<'_> {
     /// per size, the multipliers, the reserves of the forces that hold, and the force that gravity or the accelerations
     /// need. If all of them are zero, the force on the heaviest body for one size per s².
     pub fn force_scale(&self, phase: &Model, solved: Option<&Workspace>) -> f64 {
-        let ([q, v, z], size) = (self.state(phase), size(phase));
+        let ([q, v, z], size) = (self.state(phase), self.size);
         let motions = Motions::at(&phase.layout, q, v);
         let heaviest = phase.bodies.iter().fold(0.0, |most: f64, body| most.max(body.mass));
         let mut most =
@@ -138,14 +160,12 @@ impl StateAt<'_> {
 
     /// The rounding error of a gap.
     pub fn rounding(&self, model: &Model, force: usize) -> f64 {
-        let q = self.state(model)[0];
-        let scaled = q.iter().zip(column_scales(model)).map(|(q, scale)| q.abs() / scale);
-        ROUNDING * f64::EPSILON * unit(model, force) * scaled.fold(1.0, f64::max)
+        ROUNDING * f64::EPSILON * self.unit(model, force) * self.far
     }
 
     /// Whether the gap of a contact is closed.
-    pub fn is_closed(gap: f64, model: &Model, force: usize) -> bool {
-        gap <= TOUCHING * unit(model, force)
+    pub fn is_closed(&self, gap: f64, model: &Model, force: usize) -> bool {
+        gap <= TOUCHING * self.unit(model, force)
     }
 
     /// Sets the speed with which a compliant contact begins, where its element [keeps](ForceElement::keeps_speed) it: the
@@ -173,12 +193,12 @@ impl StateAt<'_> {
     /// The gap, in both directions, at which a contact no longer rests that other equations keep closed.
     pub fn play(&self, model: &Model, force: usize) -> f64 {
         let gap = self.thresholds(model, &[force])[0];
-        2.0 * TOUCHING * unit(model, force) + (-gap).max(0.0)
+        2.0 * TOUCHING * self.unit(model, force) + (-gap).max(0.0)
     }
 
     /// A rate of a gap below which the next flight is so low that rounding errors of the gap matter.
-    pub fn slow(model: &Model, force: usize) -> f64 {
-        SLOW * unit(model, force)
+    pub fn slow(&self, model: &Model, force: usize) -> f64 {
+        SLOW * self.unit(model, force)
     }
 }
 
