@@ -155,16 +155,17 @@ impl Evaluator {
         }
     }
 
-    /// Calls `give` with the state y = (q, v, z, works) at a time of a step.
+    /// Calls `give` with the state y = (q, v, z, works) at a time of a step, and with the solution of the equations of
+    /// motion if it `solves` them.
     pub fn see<R>(
         &mut self,
         model: &Model,
         (t, y): (f64, &[f64]),
-        step: &Step<'_>,
+        (step, solves): (&Step<'_>, bool),
         give: impl FnOnce(&Seen<'_>) -> R,
     ) -> R {
         let so_far = self.up_to(model, t, step);
-        self.at(model, t, y, |seen| give(&Seen { so_far: Some(&so_far), ..*seen }))
+        self.at(model, (t, y), solves, |seen| give(&Seen { so_far: Some(&so_far), ..*seen }))
     }
 
     /// Extends the run so far to the end of an accepted step.
@@ -180,7 +181,7 @@ impl Evaluator {
             let powers = PLACES.map(|place| {
                 let t = step.t_old + place * duration;
                 step.interpolate(t, &mut y);
-                self.at(model, t, &y, |seen| so_far.powers(model, seen.motions, seen.acting()))
+                self.at(model, (t, &y), true, |seen| so_far.powers(model, seen.motions, seen.acting()))
             });
             so_far.add(duration, &powers);
         }
@@ -191,21 +192,27 @@ impl Evaluator {
                 so_far.balance(|| energies(model, seen), bodies);
             };
             if !self.so_far.has_begun() {
-                self.at(model, step.t_old, step.y_old, &mut balance);
+                self.at(model, (step.t_old, step.y_old), true, &mut balance);
             }
             if t == step.t {
-                self.at(model, t, step.y, &mut balance);
+                self.at(model, (t, step.y), true, &mut balance);
             }
         }
         so_far
     }
 
     /// Calls `give` with a state.
-    fn at<R>(&mut self, model: &Model, t: f64, y: &[f64], give: impl FnOnce(&Seen<'_>) -> R) -> R {
+    fn at<R>(
+        &mut self,
+        model: &Model,
+        (t, y): (f64, &[f64]),
+        solves: bool,
+        give: impl FnOnce(&Seen<'_>) -> R,
+    ) -> R {
         let [q, v, z, works] = model.layout.split(y);
         self.motions.place(&model.layout, q, v);
         let mut solved = self.unsolved.each_ref().map(Vec::as_slice);
-        if let Some(workspace) = &mut self.workspace {
+        if let Some(workspace) = self.workspace.as_mut().filter(|_| solves) {
             workspace.motions.pieces.clear();
             if workspace.react(model, t, [q, v, z]).is_ok() {
                 solved = [workspace.a(), workspace.lam()];

@@ -12,6 +12,7 @@ use crate::integrate::{Bounds, Step, StepPath};
 use crate::math::{Interval, Local, Pose, Real, Vec2};
 use crate::model::{ForceItem, Model, Variable};
 use std::cell::RefCell;
+use std::collections::HashMap;
 
 /// Rounding errors of a distance, in floating-point spacings of the coordinates.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -31,13 +32,15 @@ pub fn parts(model: &Model, step: &Step<'_>) -> usize {
 pub struct StepPart<'a> {
     model: &'a Model,
     path: &'a StepPath<'a>,
-    span: [f64; 2],
+    pub span: [f64; 2],
     /// The held pieces of the switches of the model; empty if none is held.
     pieces: &'a [f64],
     /// Whether the slopes of coordinates are the bounds of their rates, which differ from those of the interpolant.
     rates: bool,
     /// The bounds of components of the state that were computed.
-    known: RefCell<Vec<(usize, Bounds)>>,
+    known: RefCell<HashMap<usize, Bounds>>,
+    /// The poses of bodies that were bounded, with those in the middle of the part.
+    poses: RefCell<HashMap<usize, (Pose<Bounds>, Pose)>>,
 }
 
 impl Values<Bounds> for StepPart<'_> {
@@ -72,26 +75,27 @@ impl<'a> StepPart<'a> {
         span: [f64; 2],
         pieces: &'a [f64],
     ) -> Self {
-        Self { model, path, span, pieces, rates: false, known: RefCell::default() }
+        let (known, poses) = Default::default();
+        Self { model, path, span, pieces, rates: false, known, poses }
     }
 
     /// The bounds of the rate of a position quantity, which `of` gives.
     pub fn rate(&self, of: impl FnOnce(&Self) -> Option<Bounds>) -> Option<Bounds> {
-        let known = RefCell::default();
-        let [value] = of(&Self { rates: true, known, ..*self })?.slope;
+        let (known, poses) = Default::default();
+        let [value] = of(&Self { rates: true, known, poses, ..*self })?.slope;
         Some(Bounds { value, ..Bounds::constant(f64::NAN) })
     }
 
     /// A component of y = (q, v, z, works).
     pub fn component(&self, k: usize) -> Bounds {
-        if let Some((_, bounds)) = self.known.borrow().iter().find(|(known, _)| *known == k) {
+        if let Some(bounds) = self.known.borrow().get(&k) {
             return *bounds;
         }
         let mut bounds = self.path.component(k, self.span);
         if self.rates && k < self.model.layout.n_q {
             bounds.slope = [self.path.component(k + self.model.layout.n_q, self.span).value];
         }
-        self.known.borrow_mut().push((k, bounds));
+        self.known.borrow_mut().insert(k, bounds);
         bounds
     }
 
@@ -128,6 +132,16 @@ impl<'a> StepPart<'a> {
             3 => Pose::new(r.x, r.y, of(Coordinate::Angle)),
             _ => Pose { r, ..Pose::identity() },
         }
+    }
+
+    /// The pose of a body, and in the middle of the part.
+    fn poses(&self, body: BodyId) -> (Pose<Bounds>, Pose) {
+        if let Some(poses) = self.poses.borrow().get(&body.0) {
+            return *poses;
+        }
+        let poses = (self.pose(body), self.middle(body));
+        self.poses.borrow_mut().insert(body.0, poses);
+        poses
     }
 
     /// The pose of a body in the middle of the part.
@@ -220,7 +234,7 @@ impl<'a> StepPart<'a> {
         let law = item.law.as_deref();
         let constant = Bounds::constant;
         let local = |s: Local| Local::new(constant(s.x), constant(s.y));
-        let at = |place: usize| (self.pose(bodies[place]), self.middle(bodies[place]));
+        let at = |place: usize| self.poses(bodies[place]);
         match *of {
             Clearance::Limit { limit, sign } => {
                 let s = match (law.and_then(ForceElement::followed), element.followed()?) {
@@ -264,9 +278,8 @@ impl<'a> StepPart<'a> {
     /// turns as fast as this place slides, over the sum of the radii of curvature and the distance.
     fn of_pair(&self, curve: &Rim, side: Side, bodies: &[BodyId]) -> Option<Bounds> {
         let [i, j] = [bodies[0], bodies[1]];
-        let (at_i, at_j) = (self.middle(i), self.middle(j));
+        let ((moving, at_i), (frame, at_j)) = (self.poses(i), self.poses(j));
         let apart = curve.pair_apart(&at_i, &at_j, side)?;
-        let (moving, frame) = (self.pose(i), self.pose(j));
         let constant = Bounds::constant;
         let place = Local::new(constant(apart.place.x), constant(apart.place.y));
         let p = moving.point(place) - frame.r;

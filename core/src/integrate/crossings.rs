@@ -130,7 +130,7 @@ fn sort(step: &Step<'_>, crossings: &mut [Crossing]) {
 
 /// A time and the value of a function at this time.
 type Point = (f64, f64);
-/// A time and the values of all functions at this time.
+/// A time and the values of functions at this time.
 type Sample = (f64, Vec<f64>);
 
 /// A change of sign between two times.
@@ -203,7 +203,10 @@ impl WatchedStep<'_, '_, '_> {
                 Part::Ends => None,
             };
             // the state at the end may differ from the interpolant
-            let exact = (sign.is_none() || to == t || shallow > 0.0).then(|| self.at(to)[index]);
+            let exact = (sign.is_none() || to == t || shallow > 0.0).then(|| match to == t {
+                true => self.at(to)[index],
+                false => self.some(to, &[index])[index],
+            });
             // a function that is negative at the end may not return
             let depth = if to == t { 0.0 } else { shallow };
             for value in [sign, exact.map(|value| value + depth)].into_iter().flatten() {
@@ -245,7 +248,7 @@ impl WatchedStep<'_, '_, '_> {
             } else if sign_of(slope).is_some_and(|slope| sign * slope < 0.0) {
                 falling = true;
             } else if sign_of(slope).is_some() {
-                if falling && (low..=high).contains(&self.at(from)[index]) {
+                if falling && (low..=high).contains(&self.some(from, &[index])[index]) {
                     found.push(Crossing { index, t: from, rising: false });
                 }
                 falling = false;
@@ -259,7 +262,7 @@ impl WatchedStep<'_, '_, '_> {
 
     /// A point of which the sign is known, with its value.
     fn point(&mut self, index: usize, (t, sign): Point) -> Point {
-        let value = self.at(t)[index];
+        let value = self.some(t, &[index])[index];
         (t, if value * sign > 0.0 { value } else { sign })
     }
 
@@ -272,15 +275,16 @@ impl WatchedStep<'_, '_, '_> {
         let sign = new.1.signum();
         let bracket = Bracket { old: (old.0, sign * old.1), new: (new.0, sign * new.1) };
         let spacing = f64::EPSILON * old.0.abs().max(new.0.abs());
-        change.at(bracket.close(4.0 * spacing, |t| sign * self.at(t)[index]))
+        change.at(bracket.close(4.0 * spacing, |t| sign * self.some(t, &[index])[index]))
     }
 
     /// Samples just before and just past the earliest change. A change is located only if it may come before the
     /// changes located so far. Only few changes come earlier, unless they are simultaneous up to rounding errors.
     fn earliest<'c>(
         &mut self,
-        changes: impl Iterator<Item = &'c SignChange>,
+        changes: impl Iterator<Item = &'c SignChange> + Clone,
     ) -> Option<[Sample; 2]> {
+        let all = changes.clone().map(|change| change.index).list();
         let sign = (self.step.t - self.step.t_old).signum();
         let mut around: Option<[Sample; 2]> = None;
         for change in changes {
@@ -290,7 +294,7 @@ impl WatchedStep<'_, '_, '_> {
             let t = self.close(change).t;
             if around.as_ref().is_none_or(|[_, first]| sign * t < sign * first.0) {
                 let before = t - sign * NEAR * together(self.step);
-                around = Some([before, t].map(|t| self.sample(t)));
+                around = Some([before, t].map(|t| self.sample(t, &all)));
             }
         }
         around
@@ -303,10 +307,11 @@ impl WatchedStep<'_, '_, '_> {
         until: &dyn Fn(usize) -> Option<f64>,
     ) -> Vec<Crossing> {
         let mut limit: Option<Sample> = None;
+        let all = changes.iter().map(|change| change.index).list();
         changes.retain(|change| {
             let Some(t) = until(change.index) else { return true };
             let sample = limit.take().filter(|limit| limit.0 == t);
-            let sample = limit.insert(sample.unwrap_or_else(|| self.sample(t)));
+            let sample = limit.insert(sample.unwrap_or_else(|| self.sample(t, &all)));
             self.has_changed(change, sample)
         });
         let Some([_, first]) = self.earliest(changes.iter()) else { return Vec::new() };
@@ -317,7 +322,8 @@ impl WatchedStep<'_, '_, '_> {
     /// The changes up to the earliest one that ends the step, and those shortly after it.
     fn up_to(&mut self, [before, first]: &[Sample; 2], changes: &[SignChange]) -> Vec<Crossing> {
         let sign = (self.step.t - self.step.t_old).signum();
-        let after = self.sample(first.0 + sign * NEAR * together(self.step));
+        let all = changes.iter().map(|change| change.index).list();
+        let after = self.sample(first.0 + sign * NEAR * together(self.step), &all);
         let mut found = Vec::new();
         for change in changes {
             // rounding errors may hide at a later sample a change that the first sample shows
@@ -337,7 +343,8 @@ impl WatchedStep<'_, '_, '_> {
         sign * t > from && (sign * t >= to || change.is_past(row[change.index]))
     }
 
-    fn sample(&mut self, t: f64) -> Sample {
-        (t, self.at(t).to_vec())
+    /// The values of some functions at a time.
+    fn sample(&mut self, t: f64, some: &[usize]) -> Sample {
+        (t, self.some(t, some).to_vec())
     }
 }

@@ -5,7 +5,7 @@
 
 use super::path::{Bounds, StepPath};
 use super::step::Step;
-use crate::math::{each, Interval, Real};
+use crate::math::{each, Interval, Listed, Real};
 use std::collections::HashMap;
 
 /// Bounds count as rounding errors if they are at most this number of times as wide as those at a single time.
@@ -21,8 +21,8 @@ pub struct TooFast(pub usize);
 
 /// Functions of the state whose changes of sign are wanted.
 pub trait Watch {
-    /// Writes the values of all functions at a time and a state. NaN has no sign.
-    fn values(&mut self, t: f64, y: &[f64], out: &mut [f64]);
+    /// Writes the values of `some` functions at a time and a state to their places. NaN has no sign.
+    fn values(&mut self, t: f64, y: &[f64], some: &[usize], out: &mut [f64]);
 
     /// Bounds of a function and of its time derivative between two times of a step. None if they are not known.
     fn bounds(&mut self, index: usize, path: &StepPath<'_>, span: [f64; 2]) -> Option<Bounds>;
@@ -43,6 +43,17 @@ pub trait Watch {
     fn shallow(&self, index: usize) -> f64 {
         let _ = index;
         0.0
+    }
+}
+
+/// Writes the state at a time of a step.
+fn state(step: &Step<'_>, t: f64, y: &mut [f64]) {
+    if t == step.t {
+        y.copy_from_slice(step.y);
+    } else if t == step.t_old {
+        y.copy_from_slice(step.y_old);
+    } else {
+        step.interpolate(t, y);
     }
 }
 
@@ -84,12 +95,14 @@ pub(super) struct WatchedStep<'a, 'b, 'w> {
     pub path: &'a StepPath<'b>,
     pub step: &'b Step<'b>,
     pub watch: &'w mut dyn Watch,
-    count: usize,
+    /// The functions whose changes of sign are wanted.
+    all: Vec<usize>,
     /// Number of parts for functions without bounds.
     parts: usize,
     y: Vec<f64>,
-    /// The values of all functions at times that were evaluated.
+    /// The values of all functions at times that were evaluated, and those of single functions.
     known: HashMap<u64, Vec<f64>>,
+    values: Vec<f64>,
 }
 
 impl<'a, 'b, 'w> WatchedStep<'a, 'b, 'w> {
@@ -99,28 +112,36 @@ impl<'a, 'b, 'w> WatchedStep<'a, 'b, 'w> {
         (count, parts): (usize, usize),
         watch: &'w mut dyn Watch,
     ) -> Self {
-        let step = path.step;
-        Self { path, step, watch, count, parts, y: step.y.to_vec(), known: HashMap::new() }
+        let (step, y, values) = (path.step, path.step.y.to_vec(), vec![f64::NAN; count]);
+        let all = (0..count).filter(|index| watch.minima(*index).is_none()).list();
+        Self { path, step, watch, all, parts, y, known: HashMap::new(), values }
     }
 
-    /// Evaluates all functions at a time.
+    /// Evaluates all functions whose changes of sign are wanted at a time.
     pub fn at(&mut self, t: f64) -> &[f64] {
-        let Self { step, watch, count, y, known, .. } = self;
+        let Self { step, watch, all, y, known, values, .. } = self;
         if known.len() > MOST_KEPT {
             known.clear();
         }
         known.entry(t.to_bits()).or_insert_with(|| {
-            if t == step.t {
-                y.copy_from_slice(step.y);
-            } else if t == step.t_old {
-                y.copy_from_slice(step.y_old);
-            } else {
-                step.interpolate(t, y);
-            }
-            let mut values = vec![0.0; *count];
-            watch.values(t, y, &mut values);
+            let mut values = values.clone();
+            state(step, t, y);
+            watch.values(t, y, all, &mut values);
             values
         })
+    }
+
+    /// Evaluates some functions at a time. The values of the others are of no use.
+    pub fn some(&mut self, t: f64, some: &[usize]) -> &[f64] {
+        if let Some(known) = self.known.get(&t.to_bits()) {
+            let all = some.iter().all(|index| self.all.binary_search(index).is_ok());
+            if all {
+                return known;
+            }
+        }
+        state(self.step, t, &mut self.y);
+        self.watch.values(t, &self.y, some, &mut self.values);
+        &self.values
     }
 
     /// What is known of a function over a part of the step.

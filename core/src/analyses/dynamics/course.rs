@@ -125,7 +125,7 @@ impl PhasedRun {
         };
         let mut passage = Passage::default();
         let model = course.own.as_ref().map_or(base, |own| &own.model);
-        StateAt { t: course.at.t, y: &mut course.at.y }.keep_speeds_of_closed(model);
+        StateAt::new(model, course.at.t, &mut course.at.y).keep_speeds_of_closed(model);
         if modes::has_modes(base) {
             let model = course.own.as_ref().map_or(base, |own| &own.model);
             check_modes(model, start, options, (&mut course.at, &course.events))?;
@@ -305,7 +305,7 @@ impl PhasedRun {
             match &event.effect {
                 Effect::Mode { force, place: 0 } if base.forces[*force].element.keeps_speed() => {
                     let (model, t) = (self.own.as_ref().map_or(base, |own| &own.model), self.at.t);
-                    StateAt { t, y: &mut self.at.y }.keep_speed(model, *force);
+                    StateAt::new(model, t, &mut self.at.y).keep_speed(model, *force);
                 }
                 Effect::None | Effect::Mode { .. } => {}
                 Effect::Release(driver) => self.setting.released.push(driver.clone()),

@@ -3,11 +3,10 @@
 //! The time of an event that ends its phase must agree with the solution, not only with the interpolant. The step is
 //! taken again up to the event, and the time is corrected until the function is zero at the end of a step.
 
-use super::modes::ModeFunction;
+use super::event_function::EventFunction;
 use super::motion_ode::MotionOde;
 use super::sampling;
-use crate::analyses::conditions::{Condition, Evaluator};
-use crate::analyses::signals::Seen;
+use crate::analyses::conditions::Evaluator;
 use crate::analyses::so_far::SoFar;
 use crate::analyses::step_part::{self, StepPart};
 use crate::integrate::{crossings, Bounds, Crossing, Direction, Step, StepPath, TooFast, Watch};
@@ -26,37 +25,6 @@ const NEAR: f64 = 1e-6;
 
 /// Relative change of a state by which the rounding errors of functions are estimated.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
-
-/// A function of the state.
-#[derive(Clone, Copy)]
-pub(super) enum EventFunction<'a> {
-    /// The function of a condition in a case.
-    Condition(&'a Condition),
-    /// The function of a force with modes; it is positive while the mode lasts.
-    Mode(ModeFunction),
-    /// An event that no longer occurs.
-    Never,
-}
-
-impl EventFunction<'_> {
-    fn value(&self, model: &Model, seen: &Seen<'_>) -> f64 {
-        match self {
-            Self::Condition(condition) => condition.value(model, seen),
-            Self::Mode(of) => of.value(model, seen),
-            Self::Never => 1.0,
-        }
-    }
-
-    /// The value that replaces a zero of the function, because a quantity may rest where both sides of a comparison
-    /// are equal.
-    fn at_zero(&self) -> f64 {
-        let holds = match self {
-            Self::Condition(condition) => condition.holds_at_zero(),
-            Self::Mode(_) | Self::Never => None,
-        };
-        holds.map_or(0.0, |holds| if holds { f64::MIN_POSITIVE } else { -f64::MIN_POSITIVE })
-    }
-}
 
 /// An event of a phase.
 #[derive(Clone, Copy)]
@@ -96,48 +64,53 @@ struct InStep<'l, 'a> {
     ends_phase: bool,
     /// The distances of forces that were bounded. Several events of a contact have the same distance.
     known: HashMap<(usize, [u64; 2]), Option<Bounds>>,
+    /// The whole step, in which all distances are bounded first.
+    whole: StepPart<'l>,
 }
 
 impl Watch for InStep<'_, '_> {
-    fn values(&mut self, t: f64, y: &[f64], out: &mut [f64]) {
+    fn values(&mut self, t: f64, y: &[f64], some: &[usize], out: &mut [f64]) {
         let EventList { watched, evaluator, began, zero, sampled, before, at_end, .. } =
             &mut *self.list;
-        evaluator.see(self.model, (t, y), self.step, |seen| {
-            let values = watched.iter().map(|event| event.function.value(self.model, seen));
-            out.iter_mut().zip(values).for_each(|(out, value)| *out = value);
+        let solves = some.iter().any(|index| watched[*index].function.needs_solution());
+        evaluator.see(self.model, (t, y), (self.step, solves), |seen| {
+            some.iter().for_each(|k| out[*k] = watched[*k].function.value(self.model, seen));
         });
         let exact = self.ends_phase && t == self.step.t;
-        for (index, (event, out)) in watched.iter().zip(&mut *out).enumerate() {
-            let zero = zero.as_ref().filter(|_| !exact).map_or(0.0, |zero| zero[index]);
-            *out = if out.abs() <= zero { event.function.at_zero() } else { *out };
-        }
-        if t == began.0 {
-            began.1.iter().for_each(|index| out[*index] = 0.0);
-        }
         let jumps = *sampled && t == self.step.t_old;
-        if jumps {
-            out.copy_from_slice(before);
-        }
-        if t == began.0 || jumps {
+        for index in some {
+            let (event, out) = (&watched[*index], &mut out[*index]);
+            let zero = zero.as_ref().filter(|_| !exact).map_or(0.0, |zero| zero[*index]);
+            if out.abs() <= zero {
+                *out = event.function.at_zero();
+            }
+            if t == began.0 && began.1.contains(index) {
+                *out = 0.0;
+            }
+            if jumps {
+                *out = before[*index];
+            }
             // the mode may end after a time that is short compared with the steps
-            let modes = watched.iter().zip(&mut *out).filter(|(event, _)| event.lasts);
-            modes.for_each(|(_, out)| *out = out.max(f64::MIN_POSITIVE));
+            if (t == began.0 || jumps) && event.lasts {
+                *out = out.max(f64::MIN_POSITIVE);
+            }
         }
         if t == self.step.t {
-            at_end.clear();
-            at_end.extend_from_slice(out);
+            at_end.resize(out.len(), f64::NAN);
+            some.iter().for_each(|index| at_end[*index] = out[*index]);
         }
     }
 
     fn bounds(&mut self, index: usize, path: &StepPath<'_>, span: [f64; 2]) -> Option<Bounds> {
-        let part = StepPart::new(self.model, path, span, &[]);
+        let own = (span != self.whole.span).then(|| StepPart::new(self.model, path, span, &[]));
+        let part = own.as_ref().unwrap_or(&self.whole);
         let known = &mut self.known;
         let mut clearance = |force: usize| {
             let key = (force, span.map(f64::to_bits));
             *known.entry(key).or_insert_with(|| part.apart(force, None))
         };
         match self.list.watched[index].function {
-            EventFunction::Condition(condition) => condition.bounds(&part),
+            EventFunction::Condition(condition) => condition.bounds(part),
             EventFunction::Mode(of) => of.bounds(&mut clearance),
             EventFunction::Never => Some(Bounds::one()),
         }
@@ -188,11 +161,7 @@ impl<'a> EventList<'a> {
         if watched.is_empty() {
             return None;
         }
-        let solves = watched.iter().any(|event| match event.function {
-            EventFunction::Condition(condition) => condition.needs_solution,
-            EventFunction::Mode(of) => of.needs_solution(),
-            EventFunction::Never => false,
-        });
+        let solves = watched.iter().any(|event| event.function.needs_solution());
         for event in &watched {
             if let EventFunction::Condition(condition) = event.function {
                 condition.watch(&mut so_far);
@@ -334,8 +303,9 @@ impl<'a> EventList<'a> {
         let mut beside = step.y.to_vec();
         step.interpolate(step.t - h, &mut beside);
         let states = [(step.t_old, step.y_old), (step.t - h, &beside), (step.t, step.y)];
+        let how = (step, function.needs_solution());
         let value =
-            |state| self.evaluator.see(model, state, step, |seen| function.value(model, seen));
+            |state| self.evaluator.see(model, state, how, |seen| function.value(model, seen));
         (states.map(value), h)
     }
 
@@ -346,7 +316,7 @@ impl<'a> EventList<'a> {
             let parts = step.y_old.iter().enumerate();
             let y: Vec<f64> = parts.map(|(k, y)| y * (1.0 + ROUNDING * by[k % 2])).list();
             let t = step.t_old * (1.0 + ROUNDING * by[0]);
-            evaluator.see(model, (t, &y), step, |seen| {
+            evaluator.see(model, (t, &y), (step, true), |seen| {
                 let values = watched.iter().map(|event| match event.function {
                     EventFunction::Condition(condition) => condition.value(model, seen).abs(),
                     _ => f64::NAN,
@@ -376,8 +346,11 @@ impl<'a> EventList<'a> {
         let directions: Vec<Direction> = self.watched.iter().map(|of| of.direction).list();
         let ends: Vec<bool> = self.watched.iter().map(|of| of.ends).list();
         let parts = step_part::parts(model, step);
-        let mut seen = InStep { list: self, model, step, ends_phase, known: HashMap::new() };
-        crossings(&StepPath::new(step), parts, &directions, &mut seen, &|index| ends[index])
+        let path = StepPath::new(step);
+        let whole = StepPart::new(model, &path, [step.t_old, step.t], &[]);
+        let known = HashMap::new();
+        let mut seen = InStep { list: self, model, step, ends_phase, known, whole };
+        crossings(&path, parts, &directions, &mut seen, &|index| ends[index])
     }
 
     /// The time of an event that is expected at the end of a step but lies slightly later. Returns None if there is

@@ -12,7 +12,7 @@
 //! | `start_check` | states from which a run may start |
 //! | `course`, `planned_events`, `setting` | the phases of a run, which follow from its events, and their models |
 //! | `stepped_run`, `continued` | a run that a host program advances part by part, and its steps |
-//! | `run`, `event_list`, `run_results` | one phase, its events, and the outcome of a run |
+//! | `run`, `event_list`, `event_function`, `run_results` | one phase, its events, and the outcome of a run |
 //! | `stepper` | a stepper for callers |
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; the automatic choice of the method |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
@@ -42,6 +42,7 @@ mod contact_resolution;
 mod continued;
 mod course;
 mod energies;
+mod event_function;
 mod event_list;
 mod examined_rows;
 mod failure;

@@ -1,7 +1,8 @@
 //! The events that a run watches: those of its options, the releases of its drivers, and the changes of its forces with
 //! modes.
 
-use super::event_list::{EventFunction, Watched};
+use super::event_function::EventFunction;
+use super::event_list::Watched;
 use super::failure::{Failure, Reason};
 use super::modes::{self, watched_mode};
 use super::options::Options;

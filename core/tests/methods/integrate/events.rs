@@ -97,7 +97,7 @@ type Functions<'a> = &'a mut dyn FnMut(f64, &[f64], &mut [f64]);
 struct Unbounded<'a>(Functions<'a>);
 
 impl Watch for Unbounded<'_> {
-    fn values(&mut self, t: f64, y: &[f64], out: &mut [f64]) {
+    fn values(&mut self, t: f64, y: &[f64], _: &[usize], out: &mut [f64]) {
         self.0(t, y, out);
     }
     fn bounds(&mut self, _: usize, _: &StepPath<'_>, _: [f64; 2]) -> Option<Bounds> {

@@ -62,7 +62,7 @@ fn bounds_contain_the_interpolant_and_its_slope() {
 struct Bounded<F, G>(F, G);
 
 impl<F: Fn(f64, f64) -> f64, G: Fn(Bounds, Bounds) -> Bounds> Watch for Bounded<F, G> {
-    fn values(&mut self, t: f64, y: &[f64], out: &mut [f64]) {
+    fn values(&mut self, t: f64, y: &[f64], _: &[usize], out: &mut [f64]) {
         out[0] = (self.0)(t, y[0]);
     }
     fn bounds(&mut self, _: usize, path: &StepPath<'_>, span: [f64; 2]) -> Option<Bounds> {
@@ -137,7 +137,7 @@ struct Apart {
 }
 
 impl Watch for Apart {
-    fn values(&mut self, _: f64, y: &[f64], out: &mut [f64]) {
+    fn values(&mut self, _: f64, y: &[f64], _: &[usize], out: &mut [f64]) {
         self.values += 1;
         out.iter_mut().enumerate().for_each(|(k, out)| *out = y[0] + 2.0 + k as f64);
     }

@@ -17,11 +17,12 @@ struct Margins<'s> {
 }
 
 impl Watch for Margins<'_> {
-    fn values(&mut self, t: f64, y: &[f64], out: &mut [f64]) {
+    fn values(&mut self, t: f64, y: &[f64], some: &[usize], out: &mut [f64]) {
         self.switching.evaluate(self.model, t, y);
-        for (out, k) in out.iter_mut().zip(self.on_state) {
-            let boundaries = &self.model.switches[*k].boundaries;
-            *out = boundaries.margin(self.switching.sigma[*k], self.pieces[*k]);
+        for index in some {
+            let k = self.on_state[*index];
+            let boundaries = &self.model.switches[k].boundaries;
+            out[*index] = boundaries.margin(self.switching.sigma[k], self.pieces[k]);
         }
     }
 
