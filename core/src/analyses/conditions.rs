@@ -181,7 +181,9 @@ impl Evaluator {
             let powers = PLACES.map(|place| {
                 let t = step.t_old + place * duration;
                 step.interpolate(t, &mut y);
-                self.at(model, (t, &y), true, |seen| so_far.powers(model, seen.motions, seen.acting()))
+                self.at(model, (t, &y), true, |seen| {
+                    so_far.powers(model, seen.motions, seen.acting())
+                })
             });
             so_far.add(duration, &powers);
         }
