@@ -20,7 +20,7 @@ Settings: TypeAlias = "Sequence[tuple[int, Setting]]"
 
 
 class PhaseModels:
-    """The model of each phase, made when it is first asked for."""
+    """The model of each phase, made at its first use."""
 
     def __init__(self, base: CompiledModel, settings: Settings) -> None:
         self._base = base

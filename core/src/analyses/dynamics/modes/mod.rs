@@ -34,31 +34,11 @@ use place::{largest, with_modes};
 
 use super::failure::{Failure, Reason};
 use super::options::{ImpactOrder, RestitutionLaw};
-use super::passages::Struck;
 use crate::elements::{Behaviour, Mode};
 use crate::model::{ForceMode, Model};
 use dependence::keep_closed;
 use impacts::Hits;
-use taking_part::TakingPart;
-
-/// The modes of the next phase, and what happened.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Settled {
-    /// The mode of each force that has modes.
-    pub modes: Vec<ForceMode>,
-    /// Contacts that hit, with the impulses of all multipliers.
-    pub hits: Vec<usize>,
-    /// The impulses of the joints and contacts, shape (n_multipliers).
-    pub impulses: Vec<f64>,
-    /// The impacts in order.
-    pub impacts: Vec<Vec<Struck>>,
-    /// Whether contacts with friction, or all closed contacts, acted together.
-    pub couples: bool,
-    /// Whether a sequence of impacts without end has been replaced by its limit.
-    pub collapsed: bool,
-    /// Other changes: the force, and the place of its event.
-    pub changed: Vec<(usize, usize)>,
-}
+use taking_part::{Settled, TakingPart};
 
 /// Determines the modes at a state, whose velocities jump where contacts hit. The forces `at_once` are those whose modes
 /// ended there, and those that have ceased to hold at the same time before. If `before` contains no modes, the run

@@ -1,11 +1,31 @@
 //! The mechanism without the contacts with restitution that are apart: they take no part in impacts and rest, so that
 //! these cost as much as the contacts that touch.
 
+use super::super::passages::Struck;
+use super::companions;
 use super::place::{is_contact, with_modes};
-use super::{companions, Settled};
 use crate::elements::Mode;
 use crate::math::Listed;
 use crate::model::{ForceMode, Model};
+
+/// The modes of the next phase, and what happened.
+#[derive(Clone, Debug, Default)]
+pub struct Settled {
+    /// The mode of each force that has modes.
+    pub modes: Vec<ForceMode>,
+    /// Contacts that hit, with the impulses of all multipliers.
+    pub hits: Vec<usize>,
+    /// The impulses of the joints and contacts, shape (n_multipliers).
+    pub impulses: Vec<f64>,
+    /// The impacts in order.
+    pub impacts: Vec<Vec<Struck>>,
+    /// Whether contacts with friction, or all closed contacts, acted together.
+    pub couples: bool,
+    /// Whether a sequence of impacts without end has been replaced by its limit.
+    pub collapsed: bool,
+    /// Other changes: the force, and the place of its event.
+    pub changed: Vec<(usize, usize)>,
+}
 
 /// The model with the forces that take part, and the index of each of them in the whole model, in order.
 pub(super) struct TakingPart {
