@@ -12,6 +12,7 @@ from kempe.cli.console import figure, heading, table
 from kempe.model.doubts import NO_GRAVITY
 
 if TYPE_CHECKING:
+    from kempe.model.infos import ConstraintInfo, ForceInfo
     from kempe.model.values import Number
     from kempe.results.matrices.values import Matrices
     from kempe.results.state import State
@@ -31,11 +32,12 @@ def show_mechanism(console: Console, state: State) -> None:
     ]
     table(console, ("", "name", "type", "mass / kg", "inertia / kg·m²"), bodies, left=3)
     forces = model.compile().shown_forces.values()
-    for title, elements in (
-        ("Joints", [*model.joints.values(), *(force for force in forces if force.is_joint)]),
-        ("Drivers", [*model.drivers.values()]),
-        ("Forces", [force for force in forces if not force.is_joint]),
-    ):
+    groups: dict[str, list[ConstraintInfo | ForceInfo]] = {
+        "Joints": [*model.joints.values(), *(force for force in forces if force.is_joint)],
+        "Drivers": [*model.drivers.values()],
+        "Forces": [force for force in forces if not force.is_joint],
+    }
+    for title, elements in groups.items():
         if elements:
             heading(console, title)
             rows = [(e.name, e.type, e.i, e.j) for e in elements]
