@@ -67,6 +67,22 @@ def test_a_beam_without_mass_has_equilibria_only() -> None:
     assert kp.equilibrium(m, start).state["rod.B.x"] == pytest.approx(1)
 
 
+def test_modes_of_beams_without_mass_or_inertia_name_the_beam() -> None:
+    m = clamped(density=0)
+    with pytest.raises(kp.KempeError, match=r"beam rod is not determined.*density"):
+        kp.modes(m, kp.assemble(m))
+    # a free beam has one motion more than its nodes, in which its sections turn alternately
+    for inertia in (0, 1e-6):
+        m = kp.Model("free")
+        given = {"EA": 1e6, "EI": 1.0, "mass_per_length": 1.0, "shear": False}
+        m.beam("rod", length=1, elements=4, inertia_per_length=inertia, **given)
+        if inertia:
+            assert kp.modes(m, kp.assemble(m)).omega.size
+            continue
+        with pytest.raises(kp.KempeError, match=r"beam rod.*give inertia_per_length > 0"):
+            kp.modes(m, kp.assemble(m))
+
+
 def test_the_equilibrium_over_a_driver_takes_the_place_of_kinematics() -> None:
     m = clamped(elements=2)
     with pytest.raises(kp.KempeError, match=r"shape of beam rod.*drive a coordinate"):

@@ -18,12 +18,11 @@ use crate::math::{Listed, Local};
 const OF_POINT: [&str; 3] = ["i", "curve", "side"];
 const OF_CURVES: [&str; 2] = ["curves", "sides"];
 
-/// Fields of a contact at one place, its wear, a law that keeps a speed and the cylinders of Hertz's law, each with what to
-/// do instead.
+/// Fields of a contact at one place, its wear, the cylinders of Hertz's law and another law, each with what to do instead.
 const OF_ONE_PLACE: [[&str; 2]; 3] = [
     ["wear", "remove wear"],
-    ["law", "give stiffness and damping in place of law"],
     ["young", "give stiffness in place of law, young, poisson and width"],
+    ["law", "give stiffness and damping in place of law"],
 ];
 /// Largest number of contacts of a point or circle in one contact.
 const MOST: usize = 2000;

@@ -16,8 +16,8 @@ pub(super) fn undetermined(model: &Model, t: f64, column: usize) -> (String, Str
         return (name, message);
     }
     let (id, place) = model.layout.body_of(column).unwrap_or((BodyId::GROUND, 0));
-    if [BEAM, NODE].contains(&model.bodies[id.0].kind) {
-        return of_beam(beam_of(&model.bodies[id.0].name), model.bodies[id.0].mass > 0.0, t);
+    if let Some(of_beam) = of_beam(model, t, id) {
+        return of_beam;
     }
     let name = model.bodies[id.0].name.clone();
     let joints = joined(model, id).join(", ");
@@ -43,9 +43,15 @@ pub(super) fn undetermined(model: &Model, t: f64, column: usize) -> (String, Str
     (name, message)
 }
 
-/// The message for a beam without mass, or whose sections have no moment of inertia.
-fn of_beam(beam: &str, has_mass: bool, t: f64) -> (String, String) {
-    let (lacks, remedy) = match has_mass {
+/// The name of a beam without mass, or whose sections have no moment of inertia, and the message. None if the body is not
+/// part of a beam.
+pub(in crate::analyses) fn of_beam(model: &Model, t: f64, id: BodyId) -> Option<(String, String)> {
+    let node = &model.bodies[id.0];
+    if ![BEAM, NODE].contains(&node.kind) {
+        return None;
+    }
+    let beam = beam_of(&node.name);
+    let (lacks, remedy) = match node.mass > 0.0 {
         true => ("moment of inertia of its sections", "give inertia_per_length > 0"),
         false => ("mass", "give density or mass_per_length > 0"),
     };
@@ -53,7 +59,7 @@ fn of_beam(beam: &str, has_mass: bool, t: f64) -> (String, String) {
         "the motion of beam {beam} is not determined at t = {t:.6} s: it has no {lacks}; {remedy}, or compute \
          its equilibrium"
     );
-    (beam.to_string(), message)
+    Some((beam.to_string(), message))
 }
 
 fn without_inertia(model: &Model, t: f64, id: BodyId, joints: &str) -> String {

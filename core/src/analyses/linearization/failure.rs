@@ -32,8 +32,10 @@ pub enum Failure {
     NoInertia {
         /// The time, s.
         t: f64,
-        /// The independent coordinate.
-        coordinate: String,
+        /// The independent coordinate, or the beam.
+        name: String,
+        /// What lacks inertia, with a remedy.
+        message: String,
     },
     /// The equations of motion have no solution at the state.
     Motion(Box<dynamics::Failure>),
@@ -64,7 +66,17 @@ impl Failure {
 
     /// The failure for an independent coordinate without inertia; `column` is its index in q.
     pub(super) fn no_inertia(model: &Model, t: f64, column: usize) -> Self {
-        Self::NoInertia { t, coordinate: coordinate(model, column) }
+        let body = model.layout.body_of(column).map(|(body, _)| body);
+        let of_beam = body.and_then(|body| dynamics::of_beam(model, t, body));
+        let (name, message) = of_beam.unwrap_or_else(|| {
+            let coordinate = coordinate(model, column);
+            let message = format!(
+                "no mass moves with {coordinate} at t = {t:.6} s, so that its acceleration is not determined; give mass \
+                 or inertia to a body that moves with it"
+            );
+            (coordinate, message)
+        });
+        Self::NoInertia { t, name, message }
     }
 
     pub(super) fn geometry(model: &Model, k: usize) -> Self {
@@ -103,16 +115,13 @@ pub fn coordinate(model: &Model, column: usize) -> String {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Singular { message, .. } => f.write_str(message),
+            Self::Singular { message, .. } | Self::NoInertia { message, .. } => {
+                f.write_str(message)
+            }
             Self::Open { t, name, gap, unit } => write!(
                 f,
                 "the state does not meet the constraints at t = {t:.6} s: {name} is open by {:.3e} {unit}",
                 gap.abs()
-            ),
-            Self::NoInertia { coordinate, t } => write!(
-                f,
-                "no mass moves with {coordinate} at t = {t:.6} s, so that its acceleration is not determined; give mass \
-                 or inertia to a body that moves with it"
             ),
             Self::Motion(failure) => write!(f, "{}", failure.reason),
             Self::Name(problem) => f.write_str(&problem.message),

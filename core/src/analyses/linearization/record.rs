@@ -174,8 +174,8 @@ impl From<Failure> for Outcome {
                 .name(name)
                 .at(*t)
                 .hint("kp.assemble(model, from_state=state) assembles the mechanism anew"),
-            Failure::NoInertia { t, coordinate } => {
-                outcome(ErrorClass::Singularity).name(coordinate).at(*t)
+            Failure::NoInertia { t, name, .. } => {
+                outcome(ErrorClass::Singularity).name(name).at(*t)
             }
             Failure::Motion(motion) => {
                 let own = Self::from(motion.reason.clone());
