@@ -124,8 +124,10 @@ impl PhasedRun {
             guard: Guard::new(usual_energy(base), options),
         };
         let mut passage = Passage::default();
-        let model = course.own.as_ref().map_or(base, |own| &own.model);
-        StateAt::new(model, course.at.t, &mut course.at.y).keep_speeds_of_closed(model);
+        if base.forces.iter().any(|item| item.element.keeps_speed()) {
+            let model = course.own.as_ref().map_or(base, |own| &own.model);
+            StateAt::new(model, course.at.t, &mut course.at.y).keep_speeds_of_closed(model);
+        }
         if modes::has_modes(base) {
             let model = course.own.as_ref().map_or(base, |own| &own.model);
             check_modes(model, start, options, (&mut course.at, &course.events))?;
