@@ -150,6 +150,13 @@ def test_contact_that_is_closed_at_the_start() -> None:
     assert_allclose(sol["floor.force"][0], k * depth * (1 + 0.3 * beta("flores", 0.5)))
 
 
+def test_a_negative_speed_of_an_impact_is_refused() -> None:
+    m = channel(SCALES[0], 1.0, law="flores", restitution=0.5)
+    start = kp.assemble(m, {**at(1, -0.6, 0.5), "floor.impact_speed": -2})
+    with pytest.raises(kp.KempeError, match=r"impact_speed of floor is -2 m/s.*not negative"):
+        kp.dynamics(m, start, t_end=1)
+
+
 def test_rest_and_what_is_refused() -> None:
     m = channel(SCALES[0], 1.0, 9.81, law="flores", restitution=0.5)
     rest = kp.equilibrium(m, kp.assemble(m, at(1, 0, 0.01)))

@@ -126,7 +126,7 @@ impl PhasedRun {
         let mut passage = Passage::default();
         if base.forces.iter().any(|item| item.element.keeps_speed()) {
             let model = course.own.as_ref().map_or(base, |own| &own.model);
-            StateAt::new(model, course.at.t, &mut course.at.y).keep_speeds_of_closed(model);
+            StateAt::new(model, course.at.t, &mut course.at.y).keep_speeds_of_closed(model)?;
         }
         if modes::has_modes(base) {
             let model = course.own.as_ref().map_or(base, |own| &own.model);

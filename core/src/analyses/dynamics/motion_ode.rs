@@ -1,5 +1,6 @@
 //! The equations of motion as a first-order system y = (q, v, z, works).
 
+use super::constraint_violation::APART;
 use super::options::Options;
 use super::redundant_rows;
 use super::sampling::Sample;
@@ -10,12 +11,10 @@ use crate::equations::augmented::NearSingular;
 use crate::equations::{constraints, energy, Gains, Workspace};
 use crate::integrate::{all_finite, Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
 use crate::math::Real;
-use crate::model::{size, usual_energy, Model};
+use crate::model::{row_scales, usual_energy, Model};
 use crate::solve::Breakdown;
 use crate::stabilize::{Projection, Projector, StepwiseBaumgarte};
 
-/// Distance, in sizes of the mechanism or in rad, beyond which a trial state cannot belong to the motion.
-const FAR: f64 = 1e6;
 /// Relative error of a step that does not lead to another branch.
 const BRANCH: f64 = 1e-8;
 /// Part of the energy of a usual motion below which errors of works do not shorten steps.
@@ -193,7 +192,7 @@ impl<'a> MotionOde<'a> {
                 return Ok(()); // a shorter step may avoid it
             }
             if matches!(breakdown, Breakdown::Reaction(_))
-                || self.is_far(y)
+                || self.is_apart(t)
                 || self.is_beyond(t, breakdown)
             {
                 self.paradox = Some((t, breakdown));
@@ -217,11 +216,14 @@ impl<'a> MotionOde<'a> {
         layout.n_rows >= layout.n_q + self.workspace.matrix.omitted().len()
     }
 
-    /// Whether a trial state is so far away that rounding errors make constraints dependent.
+    /// Whether a joint is open at a trial state, which a step without projection would report as an error: the equations
+    /// may depend on each other there although they do not along the motion. A shorter step stays closer to it.
     #[cold]
-    fn is_far(&self, y: &[f64]) -> bool {
-        let [q, ..] = self.model.layout.split(y);
-        q.iter().any(|q| q.abs() > FAR * size(self.model))
+    fn is_apart(&self, t: f64) -> bool {
+        let mut residual = vec![0.0; self.model.layout.n_rows];
+        constraints::residual(self.model, &self.workspace.motions, t, &mut residual);
+        let scales = row_scales(self.model);
+        residual.iter().zip(scales).any(|(gap, scale)| gap.abs() > APART * scale)
     }
 
     /// Whether a constraint has no derivative at a trial state, for instance because a table of a curve is evaluated

@@ -1,6 +1,6 @@
 //! A state at which modes are determined.
 
-use super::super::failure::Failure;
+use super::super::failure::{Failure, Reason};
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
 pub use crate::analyses::rigid::{is_rigid as is_contact, unit};
@@ -178,16 +178,27 @@ impl<'y> StateAt<'y> {
     }
 
     /// The same for all contacts that are closed at the start of a run, unless their speeds are given.
-    pub fn keep_speeds_of_closed(&mut self, model: &Model) {
-        for force in 0..model.forces.len() {
-            let keeps = model.forces[force].element.keeps_speed();
-            if keeps && self.thresholds(model, &[force])[0] <= 0.0 {
-                let state = model.layout.states[force].end - 1;
-                if self.state(model)[2][state] == 0.0 {
-                    self.keep_speed(model, force);
-                }
+    ///
+    /// # Errors
+    /// [`Failure`] with [`Reason::Start`] for a speed below zero, at which nothing begins to touch.
+    pub fn keep_speeds_of_closed(&mut self, model: &Model) -> Result<(), Box<Failure>> {
+        let keeps = |force: &usize| model.forces[*force].element.keeps_speed();
+        for force in (0..model.forces.len()).filter(keeps) {
+            let given = self.state(model)[2][model.layout.states[force].end - 1];
+            if given < 0.0 {
+                let (t, name) = (self.t, model.forces[force].name.clone());
+                let message = format!(
+                    "impact_speed of {name} is {given} m/s; it is the speed with which the contact began, which is not \
+                     negative"
+                );
+                let hint = "leave it out if the contact begins later, or give the speed of the approach";
+                return Err(Reason::Start { t, name, message, hint }.into());
+            }
+            if given == 0.0 && self.thresholds(model, &[force])[0] <= 0.0 {
+                self.keep_speed(model, force);
             }
         }
+        Ok(())
     }
 
     /// The gap, in both directions, at which a contact no longer rests that other equations keep closed.
