@@ -9,7 +9,7 @@ use super::stabilizations::Stabilization;
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, Gains};
 use crate::math::{Listed, Real};
-use crate::model::{row_scales, Model};
+use crate::model::{row_scales, size, Model};
 use crate::solve::Breakdown;
 
 /// Largest opening of a joint: lengths relative to the size of the mechanism, angles in rad. The classical gains at
@@ -17,6 +17,8 @@ use crate::solve::Breakdown;
 pub(super) const APART: f64 = 1e-2;
 /// Largest opening of a joint without stabilization.
 pub(super) const ADRIFT: f64 = 1.0;
+/// Distance, in sizes of the mechanism or in rad, beyond which a trial state cannot belong to the motion.
+const FAR: f64 = 1e6;
 
 /// Checks states for joints that opened too far.
 pub(super) struct ViolationCheck<S = f64> {
@@ -53,4 +55,15 @@ impl<S: Real> ViolationCheck<S> {
         let gap = self.residual[row].largest_magnitude();
         (widest > 1.0).then(|| Breakdown::Apart { row, gap, most: self.most[row] })
     }
+}
+
+/// Whether a trial state is far from the motion: so far away that rounding errors make constraints dependent, or with a
+/// joint so open that dependent constraints say nothing about the motion. A shorter step stays closer to it.
+#[cold]
+pub(super) fn is_astray(model: &Model, motions: &Motions, t: f64, q: &[f64]) -> bool {
+    let (most, scales) = (FAR * size(model), row_scales(model));
+    let mut residual = vec![0.0; model.layout.n_rows];
+    constraints::residual(model, motions, t, &mut residual);
+    q.iter().any(|q| q.abs() > most)
+        || residual.iter().zip(scales).any(|(gap, scale)| gap.abs() > APART * scale)
 }

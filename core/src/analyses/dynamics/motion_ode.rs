@@ -1,6 +1,6 @@
 //! The equations of motion as a first-order system y = (q, v, z, works).
 
-use super::constraint_violation::APART;
+use super::constraint_violation::is_astray;
 use super::options::Options;
 use super::redundant_rows;
 use super::sampling::Sample;
@@ -11,7 +11,7 @@ use crate::equations::augmented::NearSingular;
 use crate::equations::{constraints, energy, Gains, Workspace};
 use crate::integrate::{all_finite, Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
 use crate::math::Real;
-use crate::model::{row_scales, usual_energy, Model};
+use crate::model::{usual_energy, Model};
 use crate::solve::Breakdown;
 use crate::stabilize::{Projection, Projector, StepwiseBaumgarte};
 
@@ -192,7 +192,7 @@ impl<'a> MotionOde<'a> {
                 return Ok(()); // a shorter step may avoid it
             }
             if matches!(breakdown, Breakdown::Reaction(_))
-                || self.is_apart(t)
+                || is_astray(self.model, &self.workspace.motions, t, q)
                 || self.is_beyond(t, breakdown)
             {
                 self.paradox = Some((t, breakdown));
@@ -214,16 +214,6 @@ impl<'a> MotionOde<'a> {
     fn is_held(&self) -> bool {
         let layout = &self.model.layout;
         layout.n_rows >= layout.n_q + self.workspace.matrix.omitted().len()
-    }
-
-    /// Whether a joint is open at a trial state, which a step without projection would report as an error: the equations
-    /// may depend on each other there although they do not along the motion. A shorter step stays closer to it.
-    #[cold]
-    fn is_apart(&self, t: f64) -> bool {
-        let mut residual = vec![0.0; self.model.layout.n_rows];
-        constraints::residual(self.model, &self.workspace.motions, t, &mut residual);
-        let scales = row_scales(self.model);
-        residual.iter().zip(scales).any(|(gap, scale)| gap.abs() > APART * scale)
     }
 
     /// Whether a constraint has no derivative at a trial state, for instance because a table of a curve is evaluated

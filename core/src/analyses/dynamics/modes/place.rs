@@ -191,7 +191,8 @@ impl<'y> StateAt<'y> {
                     "impact_speed of {name} is {given} m/s; it is the speed with which the contact began, which is not \
                      negative"
                 );
-                let hint = "leave it out if the contact begins later, or give the speed of the approach";
+                let hint =
+                    "leave it out if the contact begins later, or give the speed of the approach";
                 return Err(Reason::Start { t, name, message, hint }.into());
             }
             if given == 0.0 && self.thresholds(model, &[force])[0] <= 0.0 {
