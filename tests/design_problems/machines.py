@@ -7,7 +7,9 @@ import numpy as np
 SCALES = [(1.0, 1.0, 1.0), (1e3, 1e-3, 10.0), (1e-3, 1e3, 0.1), (50.0, 0.2, 30.0)]
 
 
-def four_bar(mass: float, size: float, rate: float) -> tuple[kp.Case, dict[str, float]]:
+def four_bar(
+    mass: float, size: float, rate: float, gravity: float = 0.0
+) -> tuple[kp.Case, dict[str, float]]:
     """A driven four-bar linkage with counterweights, and their places for a full force balance.
 
     Berkof and Lowen (1969): the mass of the uniform coupler counts half at each of its ends, so
@@ -17,6 +19,7 @@ def four_bar(mass: float, size: float, rate: float) -> tuple[kp.Case, dict[str, 
     weight = 4.0 * mass
     m = kp.Model(
         "balanced four-bar",
+        gravity=(0, -gravity),
         parameters={"front": 0.1 * size, "rear": -0.2 * size},
     )
     m.ground.points(A=(0, 0), D=(0.9 * size, 0))

@@ -1,9 +1,13 @@
 """Counterweights against Berkof and Lowen's conditions."""
 
+from copy import copy
+from itertools import product
+
 import kempe as kp
 import numpy as np
 import pytest
 from design_problems.machines import SCALES, four_bar
+from scipy.optimize import minimize
 
 
 def measured(case: kp.Case) -> float:
@@ -74,9 +78,117 @@ def test_wrong_requests_are_explained() -> None:
     case, _ = four_bar(1.0, 1.0, 1.0)
     with pytest.raises(kp.ModelError, match=r"coupler.*crank"):
         kp.design.balance(case, on=["coupler"])
-    with pytest.raises(kp.ModelError, match="closed form"):
-        kp.design.balance(case, of="torque")
+    with pytest.raises(kp.ModelError, match="torque"):
+        kp.design.balance(case, of="torques")
     with pytest.raises(kp.ModelError, match=r"radius\.crank"):
         kp.design.balance(case, radius=0.0)
     with pytest.raises(kp.ModelError, match="no motion"):
         kp.design.balance(kp.Case(case.model))
+    m = kp.Model("pendulum", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    m.bar("arm", mass=1, length=1, ends=("O", "E"))
+    m.revolute("O", "ground.O", "arm.O")
+    free = kp.Case(m, {"set": {"arm.angle": 0.3}}, [kp.Dynamics(t_end=1)])
+    with pytest.raises(kp.ModelError, match=r"change the motion.*inverse_dynamics"):
+        kp.design.balance(free)
+    with pytest.raises(kp.ModelError, match="exactly one driver, and the case has none"):
+        kp.design.balance(free, of="torque")
+
+
+def arm(mass: float, size: float, value: str, *, static: bool = False) -> kp.Case:
+    """A driven arm in gravity, whose mass centre lies beside its axis."""
+    m = kp.Model("arm", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    center = (0.4 * size, 0.1 * size)
+    points = {"O": (0, 0), "E": (size, 0)}
+    m.body("arm", mass=mass, inertia=0.02 * mass * size**2, center=center, points=points)
+    m.revolute("O", "ground.O", "arm.O")
+    if static:
+        m.coordinate_driver("drive", "arm.angle", value="0")
+        over = {"over": "arm.angle", "range": (-0.7, 1.1), "n": 40, "static": True}
+        return kp.Case(m, None, [kp.InverseDynamics(**over)])
+    m.coordinate_driver("drive", "arm.angle", value=value)
+    return kp.Case(m, None, [kp.InverseDynamics(t_end=1, output_step=0.005)])
+
+
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("static", [True, False])
+def test_an_arm_without_torque_has_its_mass_centre_in_its_pivot(
+    scale: tuple[float, float, float], static: bool
+) -> None:
+    mass, size, _ = scale
+    found = kp.design.balance(arm(mass, size, "2*pi*t", static=static), of="torque")
+    one = found.masses["arm"]
+    assert one.mass * np.array(one.at) == pytest.approx(
+        [-0.4 * mass * size, -0.1 * mass * size], rel=1e-9
+    )
+    assert found.before == pytest.approx(9.81 * mass * size * np.hypot(0.4, 0.1), rel=0.2)
+    assert found.after < 1e-9 * found.before
+
+
+def test_the_inertia_of_a_counterweight_counts() -> None:
+    case = arm(2.0, 0.5, "0.8*sin(2*pi*t)")
+    found = kp.design.balance(case, of="torque", radius=0.3)
+    one = found.masses["arm"]
+    assert np.hypot(*one.at) == pytest.approx(0.3)
+    t = np.linspace(0, 1, 4001)[:-1]
+    wave, pace = 2 * np.pi * t, 2 * np.pi
+    angle, alpha = 0.8 * np.sin(wave), -0.8 * pace**2 * np.sin(wave)
+    own = 2.0 * (0.2 + 0.05j)
+    inertia = 0.02 * 2.0 * 0.25 + abs(own) ** 2 / 2.0
+
+    def effort(u: complex) -> np.ndarray:
+        pull = 9.81 * ((own + u) * np.exp(1j * angle)).real
+        return np.asarray((inertia + abs(u) * 0.3) * alpha + pull)
+
+    def mean(x: np.ndarray) -> float:
+        return float((effort(complex(*x)) ** 2).mean())
+
+    starts = product((-0.6, -0.2, 0.2, 0.6), repeat=2)
+    best = min(
+        (minimize(mean, start, method="Nelder-Mead", tol=1e-13) for start in starts),
+        key=lambda one: one.fun,
+    )
+    assert one.mass * np.array(one.at) == pytest.approx(best.x, abs=1e-4 * abs(own))
+    assert mean(one.mass * np.array(one.at)) == pytest.approx(best.fun, rel=1e-6)
+    assert found.after == pytest.approx(abs(effort(complex(*best.x))).max(), rel=1e-3)
+    assert best.fun < 0.9 * mean(np.zeros(2))
+
+
+@pytest.mark.parametrize("of", ["moment", "torque"])
+def test_two_counterweights_are_better_than_their_neighbours(of: str) -> None:
+    case, _ = four_bar(1.0, 1.0, 4.0, gravity=9.81 if of == "torque" else 0.0)
+    case = case.with_parameters({"front": 0.0, "rear": 0.0})
+    about = (0.3, -0.2)
+    found = kp.design.balance(case, of=of, on=["crank", "rocker"], radius=0.2, about=about)
+
+    def mean(changed: kp.Case) -> float:
+        (motion,) = changed.run().values()
+        assert isinstance(motion, kp.Solution)
+        if of == "torque":
+            values = motion["drive.effort"]
+        else:
+            values = kp.design.shaking(motion, about, fine=False).moment
+        return float((values[:-1] ** 2).mean())
+
+    def moved(name: str, more: tuple[float, float]) -> kp.Case:
+        made = copy(case)
+        bodies = case.model.compile().bodies
+        for body, one in found.masses.items():
+            grown, turned = more if body == name else (0.0, 0.0)
+            pivot = {"crank": "A", "rocker": "D"}[body]
+            arm = complex(*one.at) - complex(*bodies[body].points[pivot])
+            arm *= np.exp(1j * turned)
+            center, mass = (arm.real, arm.imag), one.mass * (1 + grown)
+            made.model.body(
+                f"{body}_own", mass=mass, inertia=0, center=center, points={pivot: (0, 0)}
+            )
+            made.model.weld(f"{body}_on", f"{body}.{pivot}", f"{body}_own.{pivot}")
+        return made
+
+    best = mean(found.case)
+    assert mean(moved("", (0, 0))) == pytest.approx(best, rel=1e-9)
+    assert best < 0.9 * mean(case)
+    for name in found.masses:
+        for more in ((0.05, 0), (-0.05, 0), (0, 0.05), (0, -0.05)):
+            assert mean(moved(name, more)) > best

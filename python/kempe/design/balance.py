@@ -1,4 +1,4 @@
-"""Counterweights that balance the shaking force of a mechanism."""
+"""Counterweights that balance the shaking force or moment, or the torque of the drive."""
 
 from __future__ import annotations
 
@@ -9,9 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from kempe.base.arrays import Floats
 from kempe.base.names import unknown
+from kempe.design.locate import instants
 from kempe.design.places import is_pin
 from kempe.design.shaking import shaking
+from kempe.design.weights import least
 from kempe.errors import ModelError
 from kempe.model.values import refuse
 from kempe.results.solution import Solution
@@ -41,12 +44,15 @@ class Balance:
     """Counterweights and the mechanism with them.
 
     Attributes:
+        of: "force", "moment" or "torque".
         masses: the counterweights by the name of their body.
         case: the case with them, each a body ``NAME_counterweight`` that is welded on.
-        before: the largest shaking force without them, N.
-        after: the largest one that is left, N.
+        before: the largest magnitude of the shaking force in N, of the shaking moment in N·m, or
+            of the effort of the drive in N·m or N, without them.
+        after: the largest one with them, measured on a run of ``case``.
     """
 
+    of: str
     masses: Mapping[str, Counterweight]
     case: Case
     before: float
@@ -54,7 +60,17 @@ class Balance:
 
     def __repr__(self) -> str:
         told = ", ".join(f"{name} {one.mass:.4g} kg" for name, one in self.masses.items())
-        return f"<Balance: {told}; shaking force {self.before:.4g} N to {self.after:.4g} N>"
+        what, unit = _BALANCED[self.of]
+        what = f"{what} {self.before:.4g}{unit} to {self.after:.4g}{unit}"
+        return f"<Balance: {told or 'no counterweights'}; {what}>"
+
+
+#: What is balanced, and its unit.
+_BALANCED = {
+    "force": ("shaking force", " N"),
+    "moment": ("shaking moment", " N·m"),
+    "torque": ("effort of the drive", ""),
+}
 
 
 def balance(
@@ -63,57 +79,160 @@ def balance(
     on: Sequence[str] | None = None,
     *,
     radius: float | Mapping[str, float] | None = None,
+    about: str | tuple[float, float] = (0.0, 0.0),
 ) -> Balance:
-    """Counterweights for the least mean square of the shaking force over a motion of a case.
+    """Counterweights for the least mean square of a force, moment or torque over a motion.
 
-    A body that turns about a fixed pivot by the angle φ changes this force by -u d²e^{iφ}/dt²,
-    where u is the moment of mass of its counterweight about the pivot, a complex number. The best u
-    of all bodies follow from linear equations. On both pivoted links of a four-bar, they are the
-    conditions of Berkof and Lowen (1969), and nothing is left.
+    With the moment of mass u = m r of a counterweight about its pivot, a vector fixed in the body,
+    and its moment of inertia |u| r, the shaking force is linear in u, and the shaking moment and
+    the effort of the drive are linear in u and in |u| r (Berkof and Lowen, *A new method for
+    completely force balancing simple linkages*, J. Eng. Ind. 91 (1969) 21; Berkof, *Complete force
+    and moment balancing of inline four-bar linkages*, Mech. Mach. Theory 8 (1973) 397). Three runs
+    with a counterweight on one body give its factors. The best vectors follow from linear equations
+    for the force, and from a least-squares search with many starts for the others.
 
     Args:
-        case: a case whose last analysis is a motion with reactions.
-        of: "force".
+        case: a case whose last analysis is a motion with reactions that drivers determine, such as
+            ``inverse_dynamics``.
+        of: "force" and "moment" for the shaking force and moment on ground, "torque" for the effort
+            of the only driver. In a case with ``static=True``, the effort contains the weights
+            alone.
         on: bodies with a revolute joint to ground; all of them by default.
         radius: distance of the counterweights from their pivots, m, or one for each body; by
             default half the distance to the farthest point of the body.
+        about: the point of ground to which the shaking moment refers.
 
     Raises:
-        ModelError: a body has no pivot on ground, or the case has no motion.
+        ModelError: a body has no pivot on ground, the case has no motion, counterweights would
+            change the motion, or the case of a torque has not exactly one driver.
     """
-    if of != "force":
-        hint = "choose of='force', or use kp.optimize with counterweights as parameters"
-        raise ModelError(f"of: {of!r}; only the shaking force has a closed form", hint=hint)
-    solutions = [one for one in case.run().values() if isinstance(one, Solution)]
-    if not solutions:
-        raise ModelError("the case has no motion", hint="add an analysis inverse_dynamics")
+    if of not in _BALANCED:
+        raise unknown("quantity to balance", of, _BALANCED)
+    own = _Measure(case, of, about)
     pivots = _pivots(case)
     for name in on or ():
         if name not in pivots:
             raise unknown("body with a revolute joint to ground", name, pivots)
     chosen = list(dict.fromkeys(on)) if on else list(pivots)
-    found = shaking(solutions[-1])
-    force = found.force @ [1.0, 1.0j]
-    motion = solutions[-1](found.t)
+    places = {name: _place(case, name, pivots[name][1], radius) for name in chosen}
     columns = []
     for name in chosen:
-        body = motion.body(name)
-        columns.append(np.exp(1j * body.angle) * (1j * body.alpha - body.omega**2))
-    matrix = np.column_stack(columns)
-    moments = np.linalg.lstsq(matrix, force, rcond=1e-12)[0]
-    left = force - matrix @ moments
-    masses = {}
-    for name, moment in zip(chosen, moments, strict=True):
-        if abs(moment) > _NONE * abs(moments).max():
-            points = case.model.compile().bodies[name].points
-            at = complex(*points[pivots[name][1]])
-            far = _radius(name, radius, [complex(*point) - at for point in points.values()])
-            place = at + far * moment / abs(moment)
-            masses[name] = Counterweight(
-                float(abs(moment) / far), (float(place.real), float(place.imag))
-            )
+        way = {
+            sign: own.with_weights(_weights(places, {name: sign * own.scale}))
+            for sign in (1, -1, 1j)
+        }
+        inertia = (way[1] + way[-1]) / 2
+        columns.append([(way[1] - way[-1]) / 2, way[1j] - inertia, inertia])
+    found = least(own.base, np.array(columns), linear=of == "force")
+    most = abs(found).max(initial=0.0)
+    kept = {
+        name: complex(moment) * own.scale
+        for name, moment in zip(chosen, found, strict=True)
+        if abs(moment) > _NONE * most
+    }
+    masses = _weights(places, kept)
     made = _with(case, pivots, masses)
-    return Balance(MappingProxyType(masses), made, float(abs(force).max()), float(abs(left).max()))
+    return Balance(of, MappingProxyType(masses), made, own.before, own.largest(made))
+
+
+class _Measure:
+    """What is balanced, over the motion of a case.
+
+    Attributes:
+        scale: the mass of a counterweight that is large enough to be felt, kg.
+        base: its values at the instants without counterweights, weighted by their share of time.
+        before: its largest magnitude.
+    """
+
+    def __init__(self, case: Case, of: str, about: str | tuple[float, float]) -> None:
+        self.case, self.of, self.about = case, of, about
+        drivers = list(case.model.tree().get("drivers", {}))
+        if of == "torque" and len(drivers) != 1:
+            told = ", ".join(drivers) or "none"
+            raise ModelError(
+                f"of: 'torque' needs exactly one driver, and the case has {told}",
+                hint="leave one coordinate_driver, or balance the force or the moment",
+            )
+        self.drive = f"{drivers[0]}.effort" if drivers else ""
+        solution = _motion(case)
+        self.t = instants(solution) if solution.dense is not None else solution.t
+        self.q = solution(self.t).q
+        # the square root of the weights of the trapezoidal rule
+        share = np.abs(np.gradient(self.t)) / np.ptp(self.t)
+        share[[0, -1]] /= 2
+        self.share = np.sqrt(share)
+        values = self.values(solution)
+        self.before = _largest(values)
+        # beside a singular position, an effort may have no bound
+        self.finite = np.isfinite((values.T * self.share).ravel())
+        self.base = self.flat(values)
+        self.scale = sum(body.mass for body in case.model.compile().bodies.values()) or 1.0
+
+    def values(self, solution: Solution) -> Floats:
+        """The values at the instants, (n,) or (n, 2)."""
+        motion = solution(self.t)
+        if self.of == "torque":
+            return np.asarray(motion[self.drive])
+        found = shaking(motion, self.about, fine=False)
+        return found.force if self.of == "force" else found.moment
+
+    def flat(self, values: Floats) -> Floats:
+        """Weighted values in one row."""
+        return np.asarray((values.T * self.share).ravel()[self.finite])
+
+    def with_weights(self, masses: Mapping[str, Counterweight]) -> Floats:
+        """The change of the weighted values by counterweights.
+
+        Raises:
+            ModelError: the motion changes too.
+        """
+        solution = _motion(_with(self.case, _pivots(self.case), masses))
+        moved = solution(self.t).q[:, : self.q.shape[1]] - self.q
+        if np.abs(moved).max() > 1e-6 * np.abs(self.q).max():
+            raise ModelError(
+                "counterweights change the motion of the case, which must not depend on them",
+                hint="add a coordinate_driver and use inverse_dynamics, or kp.optimize with "
+                "counterweights as parameters",
+            )
+        return np.asarray(self.flat(self.values(solution)) - self.base)
+
+    def largest(self, case: Case) -> float:
+        """The largest magnitude in a run of a case."""
+        return _largest(self.values(_motion(case)))
+
+
+def _largest(values: Floats) -> float:
+    sizes = np.hypot(*values.T) if values.ndim > 1 else np.abs(values)
+    return float(np.nanmax(sizes))
+
+
+def _motion(case: Case) -> Solution:
+    """The last motion of a case."""
+    solutions = [one for one in case.run().values() if isinstance(one, Solution)]
+    if not solutions:
+        raise ModelError("the case has no motion", hint="add an analysis inverse_dynamics")
+    return solutions[-1]
+
+
+def _place(
+    case: Case, name: str, point: str, radius: float | Mapping[str, float] | None
+) -> tuple[complex, float]:
+    """The pivot of a body in its frame, and the distance of its counterweight, m."""
+    points = case.model.compile().bodies[name].points
+    at = complex(*points[point])
+    return at, _radius(name, radius, [complex(*point) - at for point in points.values()])
+
+
+def _weights(
+    places: Mapping[str, tuple[complex, float]], masses: Mapping[str, complex]
+) -> dict[str, Counterweight]:
+    """Counterweights; each complex number has their mass and their direction in the body."""
+    found = {}
+    for name, one in masses.items():
+        pivot, far = places[name]
+        at = pivot + far * one / abs(one)
+        found[name] = Counterweight(float(abs(one)), (float(at.real), float(at.imag)))
+    return found
 
 
 def _radius(name: str, given: float | Mapping[str, float] | None, arms: Sequence[complex]) -> float:
