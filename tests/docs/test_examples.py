@@ -14,7 +14,7 @@ EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_an_example_runs(path: Path) -> None:
+def test_an_example_runs(path: Path, tmp_path: Path) -> None:
     for solution in results(path.stem).values():
         if not isinstance(solution, kp.Solution):
             assert solution.complete  # the path of a structure reaches its end
@@ -22,6 +22,9 @@ def test_an_example_runs(path: Path) -> None:
         assert solution.success
         assert solution.drift.position.max() < 1e-6
         assert np.abs(solution.energy.balance).max() < 1e-5
+        solution.to_csv(tmp_path / "solution.csv")
+        header = (tmp_path / "solution.csv").read_text(encoding="utf-8").partition("\n")[0]
+        assert header.count("lambda_") >= len(solution.compiled.constraints)
 
 
 def test_the_period_of_the_pendulum_agrees_with_the_elliptic_integral() -> None:

@@ -144,6 +144,22 @@ def test_lists_show_a_beam_as_one() -> None:
     assert not [name for name in solution.to_dataframe().columns if "#" in str(name)]
 
 
+@pytest.mark.parametrize("mass", [0.03, 300.0])
+def test_reactions_at_a_place_of_a_beam_are_columns(mass: float) -> None:
+    m = clamped(shear=False, points={"P": "50 %"}, damping=1e-3)
+    m.body("load", mass=mass, inertia=1, points={"O": (0, 0)})
+    m.revolute("J", "rod.P", "load.O")
+    m.force("pull", "load.O", force=(mass, -2 * mass))
+    sol = kp.dynamics(m, kp.assemble(m), t_end=0.01)
+    table = sol.to_dataframe()
+    for axis, pull, rate in (("fx", mass, "ax"), ("fy", -2 * mass, "ay")):
+        # Newton for the load, and the opposite force on the beam
+        load = mass * sol[f"load.{rate}"] - pull
+        np.testing.assert_allclose(table[f"J.{axis}_on_load"], load, atol=1e-9 * mass)
+        np.testing.assert_allclose(table[f"J.{axis}_on_rod.P"], -load, atol=1e-9 * mass)
+        np.testing.assert_allclose(sol[f"J.{axis}_on_rod.P"], -load, atol=1e-9 * mass)
+
+
 def test_a_beam_is_saved_and_pickled() -> None:
     m = clamped(points={"P": 0.25}, elements=3, damping=1e-3)
     again = pickle.loads(pickle.dumps(m))

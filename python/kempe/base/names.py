@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from typing import TypeVar
@@ -12,6 +13,19 @@ T = TypeVar("T")
 
 #: The largest number of existing names in a message.
 _MOST = 24
+
+
+#: A component of a reaction on a body. The name of a place of a beam contains a dot.
+_REACTION = re.compile(r"(.+?)\.((?:[a-z]+_)?(?:fx|fy|torque)_on_.+)")
+
+
+def owner_of(name: str) -> tuple[str, str]:
+    """The owner of a quantity and the last part of its name; the owner may be empty."""
+    reaction = _REACTION.fullmatch(name)
+    if reaction:
+        return reaction[1], reaction[2]
+    owner, _, quantity = name.rpartition(".")
+    return owner, quantity
 
 
 class UnknownNameError(ModelError, KeyError):

@@ -16,7 +16,7 @@ import numpy as np
 
 from kempe import _core
 from kempe.base.arrays import Floats, fixed, scalar
-from kempe.base.names import entry, unknown
+from kempe.base.names import entry, owner_of, unknown
 from kempe.model.compiled import (
     ACCELERATIONS,
     COORDINATES,
@@ -71,7 +71,7 @@ def named(motion: Motion, name: str) -> Quantity:
 def _named(motion: Motion, name: str) -> Quantity:
     if name in motion.compiled.measures:
         return _measure_of(motion, name)
-    owner, _, quantity = name.rpartition(".")
+    owner, quantity = owner_of(name)
     family = _family(motion, owner)
     if family is None:
         raise unknown("quantity", name, names(motion))

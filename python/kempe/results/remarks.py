@@ -18,7 +18,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from kempe.base.display_units import display
-from kempe.base.names import few
+from kempe.base.names import few, owner_of
 from kempe.results.extrema import peak, unbounded
 from kempe.results.quantities import values_of
 from kempe.results.variable import TIME, Variable
@@ -60,7 +60,7 @@ def read_by(model: CompiledModel, names: Iterable[str]) -> frozenset[str]:
     """
     found: set[str] = set()
     for name in names:
-        owner, _, quantity = name.rpartition(".")
+        owner, quantity = owner_of(name)
         if name in model.measures:
             found |= read_by(model, model.measures[name].quantities)
         elif owner in model.constraints:

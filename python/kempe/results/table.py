@@ -112,7 +112,9 @@ def column_names(solution: Solution, extent: Extent) -> Iterator[str]:
     for name, joint in compiled.constraints.items():
         for coordinate, _ in joint.coordinates:
             yield from (f"{name}.{coordinate}", f"{name}.{coordinate}_rate")
-    yield from (f"{name}.lambda_{row}" for name, _, row in map(_parted, compiled.row_names()))
+    # the locks inside of beams have rows without a name of their own
+    rows = map(_parted, compiled.row_names())
+    yield from (f"{name}.lambda_{row}" for name, _, row in rows if name in compiled.constraints)
     frames = texts(extent.frames, "frames")
     for name in compiled.constraints:
         for frame in map(checked_frame, frames):
