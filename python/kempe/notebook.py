@@ -50,7 +50,13 @@ def of_model(model: Model) -> str:
             warnings.simplefilter("ignore")
             picture = drawing(assemble(model))
         bodies = [
-            (str(body.number), body.name, body.type, f"{body.mass:.6g}", f"{body.inertia:.6g}")
+            (
+                str(body.shown_number),
+                body.name,
+                body.type,
+                f"{body.mass:.6g}",
+                f"{body.inertia:.6g}",
+            )
             for body in model.compile().shown_bodies.values()
         ]
     except KempeError as error:  # a model that is not finished

@@ -196,3 +196,20 @@ def test_a_beam_without_section_has_no_stress() -> None:
         _ = state.beam("rod").stress
     with pytest.raises(kp.KempeError, match="unknown quantity"):
         _ = state["rod.stress"]
+
+
+def test_lists_and_figures_number_a_beam_as_one_body() -> None:
+    m = clamped(elements=3, points={"P": "50 %"})
+    m.body("load", mass=1, inertia=1, points={"O": (0, 0)})
+    m.weld("hook", "rod.B", "load.O")
+    compiled = m.compile()
+    assert [body.shown_number for body in compiled.shown_bodies.values()] == [1, 2]
+    assert compiled.bodies["rod.P"].shown_number == 0
+    sol = kp.dynamics(m, kp.assemble(m), t_end=1e-3)
+    for name, title in (("load", "2 load"), ("rod.P", "rod.P")):
+        figure = np.ravel(kp.plot.velocities(sol, name))[0].figure
+        told = [axes.get_title(loc="left") for axes in figure.axes]
+        assert any(one.startswith(title) for one in [figure.get_suptitle(), *told])
+    words = " ".join(text.get_text() for text in kp.plot.configuration(sol.initial).texts)
+    assert {"1", "2"} <= set(words.split())
+    assert "3" not in words.split()

@@ -26,7 +26,7 @@ def mechanism(subject: Subject) -> Section:
     """Drawings, numbers of bodies, counts of equations and degrees of freedom."""
     start, model = subject.start, subject.model
     found = mobility(model, start)
-    named = [f"{info.number} {name}" for name, info in model.shown_bodies.items()]
+    named = [f"{info.shown_number} {name}" for name, info in model.shown_bodies.items()]
     drawings: list[Block] = []
     if model.bodies:
         drawings = [
@@ -87,7 +87,9 @@ def _bodies(subject: Subject) -> Table:
     for name, info in subject.model.shown_bodies.items():
         inertia = number(info.inertia, "kg*m^2") if info.turns else "–"
         center = (number(part, "m") for part in info.center)
-        rows.append((str(info.number), name, info.type, number(info.mass, "kg"), inertia, *center))
+        rows.append(
+            (str(info.shown_number), name, info.type, number(info.mass, "kg"), inertia, *center)
+        )
     header = (
         "no.",
         "body",

@@ -93,7 +93,7 @@ def motion(name: str, solution: Solution) -> Section:
 def _velocities(solution: Solution, figures: Figures) -> Sequence[Block]:
     bodies = solution.compiled.bodies
     captions = {
-        name: f"Velocity and acceleration of body {info.number}, {name}"
+        name: f"Velocity and acceleration of {f'body {info.shown_number}, ' * info.is_shown}{name}"
         for name, info in bodies.items()
     }
     return figures.about(captions)

@@ -225,8 +225,12 @@ class CompiledModel:
     @cached_property
     def all_bodies(self) -> Mapping[str, BodyInfo]:
         """Ground and the moving bodies, in the order of q."""
-        infos = (body(number, entry) for number, entry in enumerate(self._about["bodies"]))
-        return MappingProxyType({info.name: info for info in infos})
+        found, shown = dict[str, BodyInfo](), 0
+        for number, entry in enumerate(self._about["bodies"]):
+            info = body(number, shown, entry)
+            shown = info.shown_number or shown
+            found[info.name] = info
+        return MappingProxyType(found)
 
     @cached_property
     def bodies(self) -> Mapping[str, BodyInfo]:

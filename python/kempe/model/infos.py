@@ -28,6 +28,8 @@ class BodyInfo:
         name: name of the body.
         type: such as "bar"; empty for ground.
         number: 0 for ground; moving bodies count from 1.
+        shown_number: its number in lists and figures, where a beam counts as one body; 0 for ground
+            and for the nodes of beams.
         mass: kg.
         inertia: about the mass centre, kg·m².
         center: mass centre in the body's frame, m.
@@ -42,6 +44,7 @@ class BodyInfo:
     name: str
     type: str
     number: int
+    shown_number: int
     mass: float
     inertia: float
     center: Vector
@@ -210,8 +213,9 @@ def _measured(entries: list[dict[str, Any]]) -> tuple[Measured, ...]:
     return tuple(Measured(names=tuple(of["names"]), unit=of["unit"]) for of in entries)
 
 
-def body(number: int, entry: dict[str, Any]) -> BodyInfo:
-    """A body from its entry in the description by the core."""
+def body(number: int, before: int, entry: dict[str, Any]) -> BodyInfo:
+    """A body from its entry in the description by the core, and the last shown number before it."""
+    is_shown = number > 0 and entry["type"] != "node"
     points = {name: vector(point) for name, point in entry["points"].items()}
     curves = {
         name: (tuple(map(vector, curve["points"])), bool(curve["closed"]))
@@ -222,6 +226,7 @@ def body(number: int, entry: dict[str, Any]) -> BodyInfo:
         name=entry["name"],
         type=entry["type"] or "",
         number=number,
+        shown_number=before + 1 if is_shown else 0,
         mass=float(entry["mass"] or 0.0),
         inertia=float(entry["inertia"] or 0.0),
         center=vector(entry["center"]),

@@ -96,9 +96,9 @@ def accelerations(
 
 
 def body_title(info: BodyInfo, index_base: int = 1) -> str:
-    """Number and name of a body, such as "2 coupler"; ground has no number."""
+    """Number and name of a body, such as "2 coupler"; ground and nodes of beams have no number."""
     name = style.short(info.name)
-    return f"{info.number - 1 + index_base} {name}" if info.number else name
+    return f"{info.shown_number - 1 + index_base} {name}" if info.shown_number else name
 
 
 def body_panel(motion: Motion, body: str, quantity: str, index_base: int) -> Panel:

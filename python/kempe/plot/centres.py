@@ -82,8 +82,9 @@ def instant_centres(
 def _centres(state: State, index_base: int) -> dict[str, Floats]:
     """The centre of each pair of bodies in relative motion."""
     numbers = {
-        name: body.number - 1 + index_base if body.number else 0
+        name: body.shown_number - 1 + index_base if body.number else 0
         for name, body in state.compiled.all_bodies.items()
+        if body.is_shown
     }
     found = {}
     for i, j in combinations(numbers, 2):
