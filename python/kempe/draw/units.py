@@ -22,6 +22,8 @@ _CUSTOM = {
 }
 #: Angles are in degrees, as in tables, with a power of ten only outside of this range.
 _DEGREE, _WRITTEN = math.pi / 180.0, (0.2, 1e6)
+#: Numbers without unit have a power of ten only outside of this range.
+_PLAIN = (1e-3, 1e4)
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 #: Below this value, in SI units, a quantity is a rounding error and is shown as zero.
@@ -43,6 +45,8 @@ class Scale:
     def written(self, value: float) -> str:
         """A value in SI units as text, such as ``-12.3 kN`` or ``30°``, with a true minus sign."""
         number = f"{value / self.divisor:.4g}".replace("-", "\N{MINUS SIGN}")
+        if self.unit == "1":
+            return number
         return f"{number}{'' if self.unit == '°' else ' '}{self.unit}"
 
     def axis(self, symbol: str) -> str:
@@ -72,8 +76,10 @@ def scale(unit: str, peak: float) -> Scale:
         power = _power(peak / _DEGREE) if not _WRITTEN[0] <= peak / _DEGREE < _WRITTEN[1] else 0
         return Scale(_DEGREE * 10.0**power, f"{power_of_ten(power)} °" if power else "°")
     power = _power(peak)
-    if not power:
+    if not power or (unit == "1" and _PLAIN[0] <= peak < _PLAIN[1]):
         return Scale(1.0, unit)
+    if unit == "1":
+        return Scale(10.0**power, power_of_ten(power))
     if power in _CUSTOM.get(unit, ()):
         return Scale(10.0**power, _PREFIXES[power] + unit)
     return Scale(10.0**power, f"{power_of_ten(power)} {unit}")

@@ -226,8 +226,8 @@ class CompiledModel:
     def all_bodies(self) -> Mapping[str, BodyInfo]:
         """Ground and the moving bodies, in the order of q."""
         found, shown = dict[str, BodyInfo](), 0
-        for number, entry in enumerate(self._about["bodies"]):
-            info = body(number, shown, entry)
+        for number, about in enumerate(self._about["bodies"]):
+            info = body(number, shown, about)
             shown = info.shown_number or shown
             found[info.name] = info
         return MappingProxyType(found)
