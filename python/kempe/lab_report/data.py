@@ -104,7 +104,7 @@ def _bodies(subject: Subject) -> Table:
 
 def _forms(subject: Subject) -> Iterator[str]:
     """Descriptions of the types of bodies that determine their own inertia."""
-    kinds = dict.fromkeys(info.type for info in subject.model.bodies.values())
+    kinds = dict.fromkeys(info.type for info in subject.model.shown_bodies.values())
     return (f"{kind}: {about('bodies', kind)}" for kind in kinds if kind != "body")
 
 

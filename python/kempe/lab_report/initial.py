@@ -50,7 +50,7 @@ def _coordinates(state: State) -> Table:
     header += ["φ / °"] if both else []
     header += [heading("ẋ", "m/s"), heading("ẏ", "m/s"), heading("φ̇", "rad/s")]
     rows, q, v = [], tidy(state.q), tidy(state.v)
-    for name, info in state.compiled.bodies.items():
+    for name, info in state.compiled.named_bodies.items():
         x, y, *angle = q[info.columns]
         vx, vy, *omega = v[info.columns]
         row: list[Cell] = [name, number(x, "m"), number(y, "m")]
@@ -223,7 +223,7 @@ def _loads(state: State) -> Iterator[Block]:
         yield Paragraph(f"They are not determined: {error.args[0]}.")
         return
     rows = []
-    for name, info in state.compiled.bodies.items():
+    for name, info in state.compiled.named_bodies.items():
         pairs = zip(acceleration[info.columns], _ACCELERATIONS, strict=False)
         cells: list[Cell] = [number(value, unit) for value, (_, unit) in pairs]
         rows.append([name, *cells, *["–"] * (3 - len(cells))])
