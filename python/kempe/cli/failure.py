@@ -39,8 +39,9 @@ def print_error(error: errors.KempeError) -> None:
     message = str(error)
     console.print(Text.assemble(("error: ", "bold red"), message))
     for problem in error.problems:
-        if problem.message not in message:  # messages of the core contain them, with lines
-            console.print(Text(f"  {problem}"))
+        # messages of the core contain them, with lines or without their path
+        if problem.message.removeprefix(f"{problem.path}: ") not in message:
+            console.print(Text(f"  {problem.message}"))
 
 
 @contextmanager

@@ -147,7 +147,7 @@ impl fmt::Display for Reason {
         match self {
             Self::Free { degrees_of_freedom: n } => write!(
                 f,
-                "the drivers leave {n} degree{} of freedom; kinematics needs a driver for each",
+                "the drivers leave {n} degree{} of freedom; a driver is needed for each",
                 if *n == 1 { "" } else { "s" }
             ),
             Self::Bends(beam, _) => write!(
