@@ -7,7 +7,7 @@ use super::points::TABLE_ENDS;
 use super::suggest::did_you_mean;
 use super::switch::Piecewise;
 use super::table::Table;
-use super::tape::{FormulaValues, Instruction};
+use super::tape::{FormulaValues, Instruction, TapeCode};
 use super::tree::{Node, NodeKind};
 use super::unit::Unit;
 use super::{ExpressionError, Names, Symbol, Tape, MAX_OPERANDS};
@@ -21,18 +21,18 @@ pub(super) fn compile<N: Names + ?Sized>(
     nodes: &[Node],
     names: &N,
 ) -> Result<Tape, ExpressionError> {
-    let tape = Tape { code: Vec::with_capacity(nodes.len()), ..Tape::default() };
+    let tape = TapeCode { code: Vec::with_capacity(nodes.len()), ..TapeCode::default() };
     let mut compiler = Compiler { text, tape, depth: 0, conditions: Vec::new() };
     for node in nodes {
         compiler.node(node, names)?;
     }
     compiler.tape.count_switches();
-    Ok(compiler.tape)
+    Ok(compiler.tape.into())
 }
 
 struct Compiler<'a> {
     text: &'a str,
-    tape: Tape,
+    tape: TapeCode,
     /// Operands on the stack after the last instruction.
     depth: usize,
     /// Relations whose `if` follows later.
@@ -210,12 +210,12 @@ impl Compiler<'_> {
 
 /// The value of a piece of tape without symbols, computed by the usual evaluation.
 fn fold(code: &[Instruction], tables: &[Arc<Table>]) -> f64 {
-    let tape = Tape {
+    let tape = Tape::from(TapeCode {
         code: code.to_vec(),
         operands: code.len(),
         tables: tables.to_vec(),
-        ..Tape::default()
-    };
+        ..TapeCode::default()
+    });
     tape.evaluate(&FormulaValues { parameters: &[], time: f64::NAN, variables: &[] })
 }
 

@@ -1,7 +1,7 @@
 //! A tape from operations in postfix order: operands first.
 
 use super::operation::{Binary, Call, Unary, FUNCTIONS};
-use super::tape::Instruction;
+use super::tape::{Instruction, TapeCode};
 use super::{Symbol, Tape};
 
 /// Builds a tape operation by operation.
@@ -78,6 +78,6 @@ impl Postfix {
     /// The tape.
     pub fn finish(self) -> Tape {
         let (code, operands, symbols) = (self.code, self.operands, self.symbols);
-        Tape { code, operands, symbols, ..Tape::default() }
+        TapeCode { code, operands, symbols, ..TapeCode::default() }.into()
     }
 }

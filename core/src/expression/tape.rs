@@ -5,6 +5,7 @@ use super::switch::{Boundaries, Piecewise};
 use super::table::Table;
 use super::{Symbol, MAX_OPERANDS};
 use crate::math::Real;
+use std::ops::Deref;
 use std::sync::Arc;
 
 mod simple;
@@ -101,9 +102,13 @@ impl<S: Real> Values<S> for FormulaValues<'_, S> {
     }
 }
 
-/// A compiled expression.
+/// A compiled expression. Copies share its instructions.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Tape {
+pub struct Tape(Arc<TapeCode>);
+
+/// The instructions of a tape, and what they use.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TapeCode {
     pub(super) code: Vec<Instruction>,
     /// Largest number of operands on the stack, at most [`MAX_OPERANDS`].
     pub(super) operands: usize,
@@ -113,6 +118,41 @@ pub struct Tape {
     pub(super) switches: usize,
     /// Index of the first switch in the held pieces.
     pub(super) first_switch: usize,
+}
+
+impl TapeCode {
+    /// Sets the number of switches from the code.
+    pub(super) fn count_switches(&mut self) {
+        self.switches = self.code.iter().filter(|code| self.switch_of(code).is_some()).count();
+    }
+
+    /// The boundaries of the switch of an instruction, the number of operands on which its function depends, and whether
+    /// it is smooth.
+    fn switch_of(&self, instruction: &Instruction) -> Option<(Boundaries, usize, bool)> {
+        match *instruction {
+            Instruction::Piecewise(operation) => {
+                Some((operation.boundaries(), operation.arguments(), operation.is_smooth()))
+            }
+            Instruction::Table(k) => {
+                self.tables[k].knots().map(|knots| (Boundaries::Knots(Arc::clone(knots)), 1, false))
+            }
+            _ => None,
+        }
+    }
+}
+
+impl Deref for Tape {
+    type Target = TapeCode;
+
+    fn deref(&self) -> &TapeCode {
+        &self.0
+    }
+}
+
+impl From<TapeCode> for Tape {
+    fn from(code: TapeCode) -> Self {
+        Self(Arc::new(code))
+    }
 }
 
 /// A value that the observer of an evaluation receives.
@@ -237,25 +277,6 @@ impl Tape {
         stack[0]
     }
 
-    /// Sets the number of switches from the code.
-    pub(super) fn count_switches(&mut self) {
-        self.switches = self.code.iter().filter(|code| self.switch_of(code).is_some()).count();
-    }
-
-    /// The boundaries of the switch of an instruction, the number of operands on which its function depends, and whether
-    /// it is smooth.
-    fn switch_of(&self, instruction: &Instruction) -> Option<(Boundaries, usize, bool)> {
-        match *instruction {
-            Instruction::Piecewise(operation) => {
-                Some((operation.boundaries(), operation.arguments(), operation.is_smooth()))
-            }
-            Instruction::Table(k) => {
-                self.tables[k].knots().map(|knots| (Boundaries::Knots(Arc::clone(knots)), 1, false))
-            }
-            _ => None,
-        }
-    }
-
     /// The switches of the expression, in the order of their indices.
     pub fn switches(&self) -> Vec<FormulaSwitch> {
         let mut stack: Vec<[bool; 2]> = Vec::new(); // time, state
@@ -280,7 +301,7 @@ impl Tape {
 
     /// The same expression with `first` as the index of its first switch.
     pub fn with_first_switch(&self, first: usize) -> Self {
-        Self { first_switch: first, ..self.clone() }
+        TapeCode { first_switch: first, ..(*self.0).clone() }.into()
     }
 
     /// The indices of the switches in the held pieces.
@@ -361,6 +382,6 @@ impl Tape {
 impl From<f64> for Tape {
     /// A tape that consists of one constant.
     fn from(x: f64) -> Self {
-        Self { code: vec![Instruction::Constant(x)], operands: 1, ..Self::default() }
+        TapeCode { code: vec![Instruction::Constant(x)], operands: 1, ..TapeCode::default() }.into()
     }
 }

@@ -1,66 +1,69 @@
 //! Tapes of simple laws, which are composed without a text.
 
-use super::{Binary, Instruction, Symbol, Tape, Unary};
+use super::{Binary, Instruction, Symbol, Tape, TapeCode, Unary};
 use crate::math::Listed;
 use std::ops::{Neg, Sub};
+use std::sync::Arc;
 
 impl Tape {
     /// A tape that consists of one symbol.
     pub fn of(symbol: Symbol) -> Self {
         let (code, symbols) = (vec![Instruction::Load(symbol)], vec![symbol]);
-        Self { code, operands: 1, symbols, ..Self::default() }
+        TapeCode { code, operands: 1, symbols, ..TapeCode::default() }.into()
     }
 
     /// The sum of a symbol and a number.
     pub fn shifted(symbol: Symbol, by: f64) -> Self {
         let add = Instruction::Binary(Binary::Add);
         let code = vec![Instruction::Load(symbol), Instruction::Constant(by), add];
-        Self { code, operands: 2, symbols: vec![symbol], ..Self::default() }
+        TapeCode { code, operands: 2, symbols: vec![symbol], ..TapeCode::default() }.into()
     }
 
     /// The sum of a formula and a number.
-    pub fn plus(mut self, by: f64) -> Self {
-        if let Some(own) = self.constant() {
-            return Self::from(own + by);
+    pub fn plus(self, by: f64) -> Self {
+        match self.constant() {
+            Some(own) => Self::from(own + by),
+            None => self.then(&[Instruction::Constant(by), Instruction::Binary(Binary::Add)]),
         }
-        self.operands = self.operands.max(2);
-        self.code.extend([Instruction::Constant(by), Instruction::Binary(Binary::Add)]);
-        self
+    }
+
+    /// The tape with further instructions, of at most two operands.
+    fn then(self, further: &[Instruction]) -> Self {
+        let mut own = Arc::unwrap_or_clone(self.0);
+        own.code.extend_from_slice(further);
+        own.operands = own.operands.max(2);
+        own.into()
     }
 
     /// The law position + rate (t - t0).
     pub fn line(position: f64, rate: f64, t0: f64) -> Self {
         let add = Instruction::Binary(Binary::Add);
-        let mut line = Self::growing(Instruction::Constant(rate), t0);
-        line.code.extend([Instruction::Constant(position), add]);
-        line
+        Self::growing(Instruction::Constant(rate), t0).then(&[Instruction::Constant(position), add])
     }
 
     /// The law symbol × (t - t0).
     pub fn growing_by(symbol: Symbol, t0: f64) -> Self {
-        let law = Self::growing(Instruction::Load(symbol), t0);
-        Self { symbols: vec![Symbol::Time, symbol], ..law }
+        let law = Arc::unwrap_or_clone(Self::growing(Instruction::Load(symbol), t0).0);
+        TapeCode { symbols: vec![Symbol::Time, symbol], ..law }.into()
     }
 
     fn growing(rate: Instruction, t0: f64) -> Self {
-        let mut law = Self::shifted(Symbol::Time, -t0);
-        law.code.extend([rate, Instruction::Binary(Binary::Multiply)]);
-        law
+        Self::shifted(Symbol::Time, -t0).then(&[rate, Instruction::Binary(Binary::Multiply)])
     }
 
     /// The law times a number.
-    pub fn times(mut self, by: f64) -> Self {
-        self.code.extend([Instruction::Constant(by), Instruction::Binary(Binary::Multiply)]);
-        Self { operands: self.operands.max(2), ..self }
+    pub fn times(self, by: f64) -> Self {
+        self.then(&[Instruction::Constant(by), Instruction::Binary(Binary::Multiply)])
     }
 }
 
 impl Neg for Tape {
     type Output = Self;
 
-    fn neg(mut self) -> Self {
-        self.code.push(Instruction::Unary(Unary::Negate));
-        self
+    fn neg(self) -> Self {
+        let mut own = Arc::unwrap_or_clone(self.0);
+        own.code.push(Instruction::Unary(Unary::Negate));
+        own.into()
     }
 }
 
@@ -70,10 +73,11 @@ impl Sub for Tape {
     /// The tape with more operands comes first, so that the sum seldom needs more operands than it.
     fn sub(self, other: Self) -> Self {
         let other = -other;
-        let (mut sum, last) = match self.operands < other.operands {
+        let (sum, last) = match self.operands < other.operands {
             true => (other, self),
             false => (self, other),
         };
+        let (mut sum, last) = (Arc::unwrap_or_clone(sum.0), Arc::unwrap_or_clone(last.0));
         let known = sum.tables.len();
         let moved = last.code.into_iter().map(|code| match code {
             Instruction::Table(k) => Instruction::Table(known + k),
@@ -85,6 +89,6 @@ impl Sub for Tape {
         sum.symbols.extend(new);
         sum.tables.extend(last.tables);
         sum.count_switches();
-        sum
+        sum.into()
     }
 }
