@@ -113,6 +113,10 @@ macro_rules! constraints {
             pub fn constant_columns(&self) -> bool {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::CONSTANT_COLUMNS,)+)+ }
             }
+            /// Whether it can be condensed with a body that it connects to ground.
+            pub fn condenses(&self) -> bool {
+                match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::CONDENSES,)+)+ }
+            }
             /// The position quantity that a driver moves.
             pub fn drives(&self) -> Option<&Followed<S>> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::drives(e),)+)+ }

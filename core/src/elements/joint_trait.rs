@@ -194,6 +194,10 @@ pub trait Joint: Element {
     /// Φ = point_j - point_i (Haug 3.3.12).
     const CONSTANT_COLUMNS: bool = false;
 
+    /// Whether it may have two equations between two bodies, without internal coordinates. Only such joints are
+    /// condensed with a body that they connect to ground.
+    const CONDENSES: bool = Self::CONSTANT_COLUMNS;
+
     /// Number of internal coordinates, 0 to 3.
     const OWN: usize = 0;
 

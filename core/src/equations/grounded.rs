@@ -64,8 +64,9 @@ pub(super) fn grounded<S: Real>(
 #[inline]
 fn held<S>(item: &ConstraintItem<S>, slots: &Slots) -> Option<BodyId> {
     let to_ground = item.bodies.len() == 2 && item.bodies.iter().any(|body| body.is_ground());
+    let fits = item.law.is_none() && item.element.condenses();
     match slots.blocks.as_slice() {
-        [one] if to_ground && item.law.is_none() && slots.rows.len() == 2 => one.body,
+        [one] if to_ground && fits && slots.rows.len() == 2 => one.body,
         _ => None,
     }
 }

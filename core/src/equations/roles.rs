@@ -213,6 +213,7 @@ struct Condense<'a, S> {
 impl<S: Real> VisitJoints<S> for Condense<'_, S> {
     #[inline(never)] // one loop for each type
     fn visit<E: Joint>(&mut self, pool: &[Pooled<E::Over<S>>]) {
+        assert!(E::CONDENSES); // leaves the loop out of the program for other types
         let Self { at, saddle, forces, right } = self;
         for Pooled { element, place } in pool {
             let (k, row) = (place.slot as usize, place.row as usize);
@@ -253,6 +254,7 @@ struct PutPins<'a, S> {
 impl<S: Real> VisitJoints<S> for PutPins<'_, S> {
     #[inline(never)] // one loop for each type
     fn visit<E: Joint>(&mut self, pool: &[Pooled<E::Over<S>>]) {
+        assert!(E::CONSTANT_COLUMNS); // leaves the loop out of the program for other types
         let Self { at, saddle, x, right } = self;
         let all: &[PinRows] = at.plan.pattern.pin_rows();
         for Pooled { element, place } in pool {

@@ -195,6 +195,15 @@ fn action_is_reaction() {
     });
 }
 
+/// The declaration that leaves the condensation of other types out of the program.
+#[test]
+fn joints_of_two_equations_between_two_bodies_can_be_condensed() {
+    each(|c, _| {
+        let two = (c.bodies().len(), c.own(), c.equations().len()) == (2, 0, 2);
+        assert!(c.condenses() || !two, "{}", c.kind());
+    });
+}
+
 /// The declaration that the evaluation of pins relies on.
 #[test]
 fn constant_columns_are_minus_and_plus_one() {

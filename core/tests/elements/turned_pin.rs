@@ -15,6 +15,8 @@ element! {
 }
 
 impl Joint for TurnedPin {
+    const CONDENSES: bool = true;
+
     fn bodies<S>(e: &TurnedPin<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
     }

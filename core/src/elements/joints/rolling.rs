@@ -41,6 +41,8 @@ element! {
 }
 
 impl Joint for Rolling {
+    const CONDENSES: bool = true;
+
     const MEASURED: &'static [Measured] = &[Measured::DISPLACEMENT, Measured::SLIP];
     const RESULTS: &'static [ResultQuantity] = &[TANGENTIAL, STICKING];
 

@@ -36,6 +36,8 @@ fn directions<S: Real>(e: &Translational<S>, i: &Pose<S>) -> (Vec2<S>, Vec2<S>) 
 }
 
 impl Joint for Translational {
+    const CONDENSES: bool = true;
+
     const RUBS: bool = true;
     const MEASURED: &'static [Measured] = &[Measured::DISPLACEMENT];
 
