@@ -1,6 +1,7 @@
 //! Long computations that can be interrupted.
 
 use pyo3::prelude::*;
+use std::any::Any;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{channel, RecvTimeoutError};
 use std::sync::Arc;
@@ -48,6 +49,21 @@ pub fn attend<T: Send + 'static>(
     ending: Duration,
     work: impl FnOnce(ToEnd<'_>) -> T + Send + 'static,
 ) -> PyResult<Attended<T>> {
+    let known = |found: Found| *found.downcast().expect("a result of the type of the work");
+    Ok(match attend_any(py, ending, Box::new(|stop| Box::new(work(stop))))? {
+        Attended::Done(found) => Attended::Done(known(found)),
+        Attended::Interrupted(error, so_far) => Attended::Interrupted(error, so_far.map(known)),
+    })
+}
+
+/// A result of any type: the channel is compiled once for all of them.
+type Found = Box<dyn Any + Send>;
+
+fn attend_any(
+    py: Python<'_>,
+    ending: Duration,
+    work: Box<dyn FnOnce(ToEnd<'_>) -> Found + Send>,
+) -> PyResult<Attended<Found>> {
     let stop = Arc::new(AtomicBool::new(false));
     let (send, receive) = channel();
     let stopped = Arc::clone(&stop);
