@@ -49,7 +49,11 @@ pub(super) struct Pairs(BTreeMap<(usize, usize), usize>);
 impl Pairs {
     /// The pair of each owner with itself.
     pub fn diagonal(owners: usize) -> Self {
-        Self((0..owners).map(|owner| ((owner, owner), owner)).collect())
+        let mut pairs = Self(BTreeMap::new());
+        for owner in 0..owners {
+            pairs.index(owner, owner);
+        }
+        pairs
     }
 
     /// The index of the pair (row owner, column owner). The pattern is symmetric, so the transposed pair is added as

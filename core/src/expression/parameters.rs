@@ -4,7 +4,7 @@ use super::{
     is_identifier, is_reserved, Expression, ExpressionError, FormulaValues, Inferred, Names,
     Symbol, Table, Tape, FUNCTIONS,
 };
-use crate::math::{Listed, Real};
+use crate::math::{Listed, Ordered, Real};
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
@@ -97,7 +97,7 @@ impl Names for Index<'_> {
     }
     fn known(&self) -> Vec<String> {
         let mut known: Vec<_> = self.0.iter().map(|(name, k)| (*k, name.to_string())).list();
-        known.sort();
+        known.order_by_key(|(k, _)| *k);
         known.into_iter().map(|(_, name)| name).list()
     }
     fn tables(&self) -> &[Arc<Table>] {

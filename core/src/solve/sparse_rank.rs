@@ -70,7 +70,10 @@ impl SparseRank {
         let independent = || (0..rows.len()).filter(|k| is_independent[*k]);
         let mut y = vec![0.0; rows.len()];
         for _ in 0..2 {
-            let mut left: BTreeMap<usize, f64> = rows[d].iter().map(|(c, a)| (*c, -a)).collect();
+            let mut left = BTreeMap::new();
+            for (c, a) in &rows[d] {
+                left.insert(*c, -a);
+            }
             for k in independent().filter(|k| y[*k] != 0.0) {
                 rows[k].iter().for_each(|(c, a)| *left.entry(*c).or_default() -= a * y[k]);
             }

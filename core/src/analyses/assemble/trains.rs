@@ -16,7 +16,7 @@ use crate::analyses::dependence;
 use crate::analyses::freedoms::NEARLY;
 use crate::analyses::meshing::{meshes, Mesh};
 use crate::elements::BodyId;
-use crate::math::Listed;
+use crate::math::{Listed, Ordered};
 use crate::model::{listed, Model};
 
 /// Entries below this fraction of the largest one count as zero.
@@ -233,7 +233,7 @@ fn reduced(columns: &mut Vec<PitchColumn>, r: usize) -> Option<PitchColumn> {
     loop {
         let entry = |k: &usize| columns[*k].entries[r].abs();
         let mut with_entry = (0..columns.len()).filter(|k| entry(k) > 0.0).list();
-        with_entry.sort_by(|a, b| entry(a).total_cmp(&entry(b)));
+        with_entry.order_by(|a, b| entry(a).total_cmp(&entry(b)));
         let (least, others) = with_entry.split_first()?;
         if others.is_empty() {
             return Some(columns.remove(*least));

@@ -1,7 +1,7 @@
 //! Eigenvalues of the linear equations M ü + C u̇ + K u = 0 and ẋ = A x.
 
 use super::linearize::Linearization;
-use crate::math::{Complex, Listed};
+use crate::math::{Complex, Listed, Ordered};
 use crate::solve::{dot, eigenvalues as of_matrix, Eigen};
 
 /// Largest relative part of a matrix that counts as a rounding error.
@@ -19,7 +19,8 @@ pub fn eigenvalues(of: &Linearization) -> Vec<Complex> {
         false => of_matrix(&of.a, 2 * f + of.states.len()),
     };
     found.retain(|s| s.im >= 0.0);
-    found.sort_by(|a, b| a.re.hypot(a.im).total_cmp(&b.re.hypot(b.im)).then(a.re.total_cmp(&b.re)));
+    found
+        .order_by(|a, b| a.re.hypot(a.im).total_cmp(&b.re.hypot(b.im)).then(a.re.total_cmp(&b.re)));
     found
 }
 

@@ -14,7 +14,7 @@ use crate::elements::{
     beam_lock, elastic_piece, welded, BodyId, Constraint, ForceElement, PieceNumbers, PointOn,
 };
 use crate::expression::Tape;
-use crate::math::{Listed, Local};
+use crate::math::{Listed, Local, Ordered};
 
 /// Elements with their names.
 type Named<E> = Vec<(String, E)>;
@@ -130,7 +130,7 @@ fn places(reader: &mut Reader<'_>, length: &str) -> Option<Vec<(String, String, 
         all.push((name.clone(), text, at));
     }
     count(reader)?;
-    all.sort_by(|a, b| a.2.total_cmp(&b.2));
+    all.order_by(|a, b| a.2.total_cmp(&b.2));
     Some(all)
 }
 
