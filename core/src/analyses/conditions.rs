@@ -10,7 +10,7 @@ use crate::equations::newton_euler::balances;
 use crate::equations::Workspace;
 use crate::expression::{Expression, ExpressionError, Inferred, Sense, Symbol, Tape, Values};
 use crate::integrate::{Bounds, Direction, Step};
-use crate::math::{Listed, Real};
+use crate::math::{Listed, Real, ShortArray};
 use crate::model::{quantity_of, Model, Offered, Problem};
 
 /// A condition on the quantities of a model. Its event is a change of sign of its function.
@@ -150,7 +150,7 @@ impl Evaluator {
         Self {
             motions: Motions::new(&model.layout),
             workspace: solves.then(|| Box::new(workspace.clone())),
-            unsolved: [model.layout.n_q, model.layout.n_rows].map(|n| vec![f64::NAN; n]),
+            unsolved: [model.layout.n_q, model.layout.n_rows].each(|n| vec![f64::NAN; n]),
             so_far,
         }
     }
@@ -178,7 +178,7 @@ impl Evaluator {
         let mut so_far = self.so_far.clone();
         if so_far.sums() {
             let (duration, mut y) = (t - step.t_old, step.y.to_vec());
-            let powers = PLACES.map(|place| {
+            let powers = PLACES.each(|place| {
                 let t = step.t_old + place * duration;
                 step.interpolate(t, &mut y);
                 self.at(model, (t, &y), true, |seen| {
@@ -213,7 +213,7 @@ impl Evaluator {
     ) -> R {
         let [q, v, z, works] = model.layout.split(y);
         self.motions.place(&model.layout, q, v);
-        let mut solved = self.unsolved.each_ref().map(Vec::as_slice);
+        let mut solved = self.unsolved.each_ref().each(Vec::as_slice);
         if let Some(workspace) = self.workspace.as_mut().filter(|_| solves) {
             workspace.motions.pieces.clear();
             if workspace.react(model, t, [q, v, z]).is_ok() {

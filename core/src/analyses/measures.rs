@@ -11,7 +11,7 @@ use super::signal_rows::{each, each_over_lanes, Rows};
 use super::signal_units::unit_of;
 use super::signals::{Energy, Seen, Signal};
 use crate::expression::{unit::Unit, Expression, ExpressionError, Inferred, Symbol, Tape};
-use crate::math::{Lanes, Listed, Real};
+use crate::math::{Lanes, Listed, Real, ShortArray};
 use crate::model::{Model, Problem, Value};
 
 /// The unit of an expression whose dimension cannot be inferred.
@@ -197,7 +197,7 @@ pub fn check(model: &Model, measures: &[(String, Value)]) -> Vec<Problem> {
         let Value::Text(text) = value else { return None };
         let problem = Measure::read(model, text).err()?;
         let problem = of_measures(problem, text, &names);
-        Some(Problem { path: ["measures", name].map(str::to_string).to_vec(), ..problem })
+        Some(Problem { path: ["measures", name].each(str::to_string).to_vec(), ..problem })
     });
     wrong.list()
 }

@@ -16,7 +16,7 @@ use super::State;
 use crate::elements::{BodyId, Group};
 use crate::equations::kinematics::Motions;
 use crate::integrate::Flow;
-use crate::math::{Local, Vec2};
+use crate::math::{Local, ShortArray, Vec2};
 use crate::model::{Definition, Model, Problem, Value};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::float::simplify::SimplifyShape;
@@ -156,14 +156,14 @@ impl Region<'_> {
         order: [usize; 2],
         look: &mut dyn FnMut(f64) -> Flow,
     ) -> Result<Vec<Row>, Box<Unfinished>> {
-        let [first, second] = order.map(|k| self.quantity(k));
+        let [first, second] = order.each(|k| self.quantity(k));
         let (first, second) = (first?, second?);
         if first.quantity == second.quantity {
             let message = format!("{} twice, by its name and by its driver", first.quantity);
             return Err(vec![Problem::at(&["over"], message)].into());
         }
-        let [a, b] = [&first, &second].map(|of| self.value(&of.quantity));
-        let [range, across] = order.map(|k| self.options.ranges[k]);
+        let [a, b] = [&first, &second].each(|of| self.value(&of.quantity));
+        let [range, across] = order.each(|k| self.options.ranges[k]);
         // along the first quantity, with the second one at its start, or at the nearest end of its range
         let moved = self.driven([(&first, number(a)), (&second, time())])?;
         let middle = b.clamp(across[0], across[1]);
@@ -294,7 +294,7 @@ fn united(all: &[(Vec<Row>, f64)]) -> (Vec<(usize, Vec2)>, f64) {
             let [p, q, r] = corners;
             let ccw = (q - p).cross(r - p) >= 0.0;
             let ordered = if ccw { [p, q, r] } else { [p, r, q] };
-            ordered.map(|at| [at.x, at.y]).to_vec()
+            ordered.each(|at| [at.x, at.y]).to_vec()
         })
         .collect();
     let regions = triangles.simplify_shape(FillRule::NonZero);

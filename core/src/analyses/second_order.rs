@@ -16,7 +16,7 @@ use crate::elements::{holding, BodyId, Coordinate, CoordinateOf, Group};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
 use crate::expression::{Symbol, Tape};
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::{column_scales, Model, Variable};
 use std::sync::Arc;
 
@@ -240,7 +240,7 @@ fn candidates(model: &Model) -> impl Iterator<Item = Kept> {
     });
     let pairs = pairs.list();
     let places = bodies.into_iter().flat_map(move |(b, _)| {
-        [Coordinate::X, Coordinate::Y].map(|c| Kept { of: of(BodyId(b), c), from: None })
+        [Coordinate::X, Coordinate::Y].each(|c| Kept { of: of(BodyId(b), c), from: None })
     });
     alone.into_iter().chain(pairs).chain(places)
 }

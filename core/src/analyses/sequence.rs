@@ -4,7 +4,7 @@ use super::analysis_table::{declarations, kind_of, AnyAnalysis};
 use super::assemble::{assemble_until, Request};
 use super::conditions::Condition;
 use super::record::{ErrorClass, Observer, Outcome, RunResult, StartState, Subject};
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::{Entry, Model, Problem, Value};
 
 /// The option that holds coordinates. An analysis without it holds those of the start.
@@ -100,7 +100,7 @@ fn within(path: &[String], problems: Vec<Problem>) -> Vec<Problem> {
 fn releases(model: &Model) -> Vec<Problem> {
     let wrong = model.constraints.iter().filter_map(|driver| {
         let problem = Condition::read(model, &[], driver.element.release()?).err()?;
-        let path = ["drivers", &driver.name, "release"].map(str::to_string).to_vec();
+        let path = ["drivers", &driver.name, "release"].each(str::to_string).to_vec();
         Some(Problem { path, ..problem })
     });
     wrong.list()

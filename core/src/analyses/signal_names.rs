@@ -3,7 +3,7 @@
 use super::signals::{Energy, ForcePart, Signal};
 use crate::elements::{BodyId, Followed, Measured};
 use crate::equations::measured::{offered, ElementId};
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::{beam_of, is_inner, is_stretch_lock, Columns, Model, BEAM};
 
 /// The quantities of one owner with their names.
@@ -40,7 +40,7 @@ fn owners(model: &Model) -> Vec<String> {
     let constraints = constraints.map(|item| item.name.clone());
     let of_file = model.listed_forces().iter().filter(|item| item.element.in_files());
     let forces = of_file.map(|item| item.name.clone());
-    let of_run = ["energy", "drift"].map(str::to_string);
+    let of_run = ["energy", "drift"].each(str::to_string);
     points.chain(constraints).chain(forces).chain(of_run).list()
 }
 
@@ -69,7 +69,7 @@ fn family(model: &Model, owner: &str) -> Option<Family> {
                 ("total", Energy::Total),
                 ("balance", Energy::Balance),
             ];
-            Some(all.map(|(known, of)| (name(known), Signal::Energy(of))).into())
+            Some(all.each(|(known, of)| (name(known), Signal::Energy(of))).into())
         }
         "drift" => {
             let drift = |order| Signal::Drift { order };

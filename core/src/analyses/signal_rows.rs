@@ -3,7 +3,7 @@
 use super::dynamics::States;
 use super::signals::{Seen, Signal};
 use crate::equations::kinematics::Motions;
-use crate::math::{Lanes, Listed, Real};
+use crate::math::{Lanes, Listed, Real, ShortArray};
 use crate::model::Model;
 
 /// States in rows. The works up to the states have rows of three or are absent. Accelerations and multipliers have
@@ -28,7 +28,7 @@ pub(super) fn each(
 ) {
     let (layout, Rows { states, works, solved }) = (&model.layout, rows);
     let count = states.t.len();
-    let absent = [layout.n_q, model.n_multipliers()].map(|n| vec![f64::NAN; n]);
+    let absent = [layout.n_q, model.n_multipliers()].each(|n| vec![f64::NAN; n]);
     let mut motions = Motions::new(layout);
     let mut values = vec![0.0; signals.len()];
     for (k, &t) in states.t.iter().enumerate() {
@@ -36,11 +36,11 @@ pub(super) fn each(
             let width = table.len() / count;
             k * width..(k + 1) * width
         };
-        let state = [states.q, states.v, states.z].map(|table| &table[at(table)]);
+        let state = [states.q, states.v, states.z].each(|table| &table[at(table)]);
         motions.place(layout, state[0], state[1]);
         let solved = match solved {
-            Some(tables) => tables.map(|table| &table[at(table)]),
-            None => absent.each_ref().map(Vec::as_slice),
+            Some(tables) => tables.each(|table| &table[at(table)]),
+            None => absent.each_ref().each(Vec::as_slice),
         };
         let works = &works[at(works)];
         let seen = Seen { t, state, works, motions: &motions, solved, so_far: None };
@@ -66,10 +66,10 @@ pub(super) fn each_over_lanes(
     let (fours, count) = (states.t.chunks_exact(Lanes::WIDTH), states.t.len().max(1));
     let left = fours.remainder();
     let tables = [states.q, states.v, states.z, works];
-    let mut lanes = tables.map(|table| vec![Lanes::zero(); table.len() / count]);
+    let mut lanes = tables.each(|table| vec![Lanes::zero(); table.len() / count]);
     let absent = [wide.layout.n_q, wide.n_multipliers()];
-    let widths = solved.map_or(absent, |tables| tables.map(|table| table.len() / count));
-    let mut of_solved = widths.map(|n| vec![Lanes::constant(f64::NAN); n]);
+    let widths = solved.map_or(absent, |tables| tables.each(|table| table.len() / count));
+    let mut of_solved = widths.each(|n| vec![Lanes::constant(f64::NAN); n]);
     let mut motions = Motions::new(&wide.layout);
     let mut values = vec![0.0; signals.len()];
     for (k, t) in fours.enumerate() {
@@ -78,9 +78,9 @@ pub(super) fn each_over_lanes(
             let four = Lanes::WIDTH * lanes.len();
             Lanes::from_rows(&table[k * four..(k + 1) * four], lanes);
         }
-        let [q, v, z, works] = lanes.each_ref().map(Vec::as_slice);
+        let [q, v, z, works] = lanes.each_ref().each(Vec::as_slice);
         motions.place(&wide.layout, q, v);
-        let solved = of_solved.each_ref().map(Vec::as_slice);
+        let solved = of_solved.each_ref().each(Vec::as_slice);
         let (at, state) = (Lanes::new([t[0], t[1], t[2], t[3]]), [q, v, z]);
         let seen = Seen { t: at, state, works, motions: &motions, solved, so_far: None };
         let found: Vec<_> = signals.iter().map(|one| one.value(wide, &seen).to_array()).list();
@@ -90,9 +90,9 @@ pub(super) fn each_over_lanes(
         }
     }
     let last = |table| rest(table, (count, states.t.len() - left.len()));
-    let [q, v, z, works] = tables.map(last);
+    let [q, v, z, works] = tables.each(last);
     let states = States { t: left, q, v, z };
-    each(model, Rows { states, works, solved: solved.map(|two| two.map(last)) }, signals, give);
+    each(model, Rows { states, works, solved: solved.map(|two| two.each(last)) }, signals, give);
 }
 
 /// The rows of a table from row `from` on; the table has `count` rows.

@@ -9,7 +9,7 @@ use crate::elements::{
 };
 use crate::expression::{Tape, Values};
 use crate::integrate::{Bounds, Step, StepPath};
-use crate::math::{Interval, Local, Pose, Real, Vec2};
+use crate::math::{Interval, Local, Pose, Real, ShortArray, Vec2};
 use crate::model::{ForceItem, Model, Variable};
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -315,7 +315,7 @@ impl<'a> StepPart<'a> {
 
     /// A distance during the motion of a point. `apart` gives the distance in the middle of the part.
     fn moved(&self, p: [Bounds; 2], apart: &dyn Fn(Way) -> Apart, far: f64) -> Bounds {
-        let [x, y] = p.map(|p| p.slope[0]);
+        let [x, y] = p.each(|p| p.slope[0]);
         let speed = x.largest_magnitude().hypot(y.largest_magnitude());
         let half = 0.5 * (self.span[1] - self.span[0]).abs();
         let within = speed * half;

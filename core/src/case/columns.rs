@@ -5,7 +5,7 @@ use super::tree::{Data, Node, Table};
 use super::values::{as_list, as_table, wrong};
 use crate::analyses::{is_motion, sweep};
 use crate::expression::suggest::did_you_mean;
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::{Model, Problem, Value};
 
 /// Quantities of the driver of a motion over a driven value. The model of the case does not contain this driver.
@@ -87,7 +87,7 @@ pub(super) fn faults(
 ) -> Vec<Problem> {
     let get = |key: &str| entries.iter().find(|(known, _)| known == key).map(|(_, value)| value);
     let under = |key: &str, last: &str, problem: Problem| Problem {
-        path: [section, key, last].map(str::to_string).to_vec(),
+        path: [section, key, last].each(str::to_string).to_vec(),
         ..problem
     };
     let fault = |name: &str| sweep::variable_fault(model, name);

@@ -5,6 +5,7 @@ use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
 use super::values::{as_table, word, wrong};
 use crate::analyses::{is_count, DIRECTIONS, STOPS};
+use crate::math::ShortArray;
 
 /// The fields of an event.
 pub(super) const FIELDS: [&str; 3] = ["condition", "direction", "stop"];
@@ -35,7 +36,7 @@ fn event(report: &mut ProblemList, table: &Table) {
         ("stop", Data::Number(count)) if is_count(*count) => {}
         ("condition", _) => wrong(report, node, "a condition \"crank.angle > 270*deg\""),
         ("stop", _) => wrong(report, node, STOPS.trim_start_matches("must be ")),
-        ("direction", _) => word(report, node, &DIRECTIONS.map(|(word, _)| word)),
+        ("direction", _) => word(report, node, &DIRECTIONS.each(|(word, _)| word)),
         _ => report.unknown("field", key, " of an event", &FIELDS),
     });
 }

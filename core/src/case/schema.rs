@@ -15,7 +15,7 @@ use crate::elements::{
     UNITS_OF_EQUATIONS,
 };
 use crate::expression::FUNCTIONS;
-use crate::math::{Interpolation, Listed};
+use crate::math::{Interpolation, Listed, ShortArray};
 use crate::model::{body_tables, shape_tables, table_fields, INSTEAD_OF_SHAPES};
 
 /// The JSON Schema (draft 2020-12) of a case, for editors: sections, types, fields, descriptions and
@@ -175,7 +175,7 @@ fn fields(table: &Table, typed: bool) -> Value {
         complete["then"] = json!({ "required": ["length"] });
     }
     if table.name == "body" {
-        let instead = INSTEAD_OF_SHAPES.map(|key| (key.to_string(), json!(false)));
+        let instead = INSTEAD_OF_SHAPES.each(|key| (key.to_string(), json!(false)));
         complete["if"] = json!({ "required": ["shapes"] });
         complete["then"] = json!({ "properties": Map::from_iter(instead) });
         complete["else"] = json!({ "required": ["mass", "inertia"] });
@@ -267,7 +267,7 @@ fn curve() -> Value {
         "polar": described(number(), "Distance r(u) from the origin (m) at the polar angle u; closed."),
         "points": described(points(2), "Points [x, y] (m); u is the accumulated chord length."),
         "periodic": described(json!({ "type": "boolean" }), "Whether the curve closes itself."),
-        "interpolation": { "enum": Interpolation::ALL.map(word), "description": "Of points; quintic if absent." },
+        "interpolation": { "enum": Interpolation::ALL.each(word), "description": "Of points; quintic if absent." },
         "circle": described(three, "Centre x, y and radius (m); u is the angle, counter-clockwise."),
         "line": described(line, "Both ends [x, y] (m); u is the length from the first."),
         "polygon": described(points(3), "Corners [x, y] (m), counter-clockwise; for contacts; u is the length."),
@@ -302,7 +302,7 @@ fn section() -> Value {
 fn event() -> Value {
     let properties = json!({
         "condition": { "type": "string", "description": "A comparison, or an expression that becomes zero." },
-        "direction": { "enum": DIRECTIONS.map(|(word, _)| word), "description": "Zeros of an expression that count." },
+        "direction": { "enum": DIRECTIONS.each(|(word, _)| word), "description": "Zeros of an expression that count." },
         "stop": {
             "anyOf": [{ "type": "boolean" }, { "type": "integer", "minimum": 1, "maximum": 1_000_000_000 }],
             "description": "Whether the run ends there, or the number of the event that ends it."

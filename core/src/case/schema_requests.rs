@@ -1,5 +1,6 @@
 //! The JSON Schema of the sections that ask for many runs or for slopes.
 
+use crate::math::ShortArray;
 use serde_json::Value;
 
 use super::json_literal::json;
@@ -82,7 +83,7 @@ fn optimize() -> Value {
         "method": { "enum": METHODS },
         "analysis": { "type": "string", "description": ANALYSIS },
     });
-    let aims = ["minimize", "maximize", "target"].map(|key| json!({ "required": [key] }));
+    let aims = ["minimize", "maximize", "target"].each(|key| json!({ "required": [key] }));
     let rest = json!({ "required": ["variables"], "oneOf": aims });
     described(closed(object(fields), rest), "The best values of variables within limits.")
 }

@@ -1,5 +1,6 @@
 //! The JSON Schema of the sections with tasks: a synthesis and an exercise.
 
+use crate::math::ShortArray;
 use serde_json::Value;
 
 use super::json_literal::json;
@@ -14,7 +15,7 @@ pub(super) fn synthesis() -> Value {
     let whole = |least: u32| json!({ "type": "integer", "minimum": least });
     let kinds = json!([{ "type": "boolean" }, { "type": "string" }]);
     let fields = json!({
-        "task": { "enum": TASKS.map(|(task, _)| task) },
+        "task": { "enum": TASKS.each(|(task, _)| task) },
         "poses": described(rows(3), "x, y and angle of the moving frame at each pose."),
         "points": described(rows(2), "Points that the coupler point must pass."),
         "angles": described(json!({ "type": "array", "items": with_unit() }), "Crank angles at the points."),

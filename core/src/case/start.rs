@@ -5,6 +5,7 @@ use super::tree::{Data, Node, Table};
 use super::values::{as_table, number, wrong};
 use super::Start;
 use crate::elements::{Coordinate, Group};
+use crate::math::ShortArray;
 use crate::model::Value;
 
 /// Reads the current value as the section `[start]` of the case with this root.
@@ -76,13 +77,13 @@ fn goes_on(owner: &str, key: &str) -> bool {
 /// Checks the name of a coordinate. States of elements are known only to the model and are not checked here.
 fn coordinate(report: &mut ProblemList, root: &Table, (owner, name): (&str, &str)) {
     if Coordinate::named(name).is_none() && !is_element(root, owner) {
-        let known = Coordinate::ALL.map(Coordinate::name);
+        let known = Coordinate::ALL.each(Coordinate::name);
         report.unknown("coordinate", name, "", &known);
     }
 }
 
 fn is_element(root: &Table, name: &str) -> bool {
-    let sections = [Group::Joints, Group::Drivers, Group::Forces].map(|g| root.get(g.section()));
+    let sections = [Group::Joints, Group::Drivers, Group::Forces].each(|g| root.get(g.section()));
     let mut sections = sections.into_iter().flatten();
     sections.any(|section| section.child(name).is_some())
 }

@@ -7,7 +7,7 @@ use super::tree::{Data, Node, Table};
 use super::values::{as_list, as_table, word, wrong};
 use super::{columns, shown};
 use crate::analyses::{is_motion, readings, sweep};
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::{Model, Problem, Value};
 
 /// Words for `task` of a synthesis, and the list that each task needs.
@@ -60,7 +60,7 @@ pub(super) fn synthesis(
     let required = if chosen.is_some() { &needed[..] } else { &needed[..1] };
     let section = ("synthesis", &keys[..], required);
     columns::read(report, (node, root), section, |report, key, value| match key {
-        "task" => word(report, value, &TASKS.map(|(task, _)| task)),
+        "task" => word(report, value, &TASKS.each(|(task, _)| task)),
         "poses" => rows(report, value, (3, "[[0, 0, 0], [0.1, 0.2, \"30 deg\"]]")),
         "points" => rows(report, value, (2, "[[0, 0], [0.1, 0.2]]")),
         "pairs" => rows(report, value, (2, "[[\"10 deg\", \"35 deg\"], [\"40 deg\", \"60 deg\"]]")),

@@ -3,7 +3,7 @@
 //! The polygon is divided into triangles by its diagonals (ear clipping). Triangles are then joined as long as they
 //! stay convex (Hertel and Mehlhorn 1983), which gives at most four times the least number of parts.
 
-use crate::math::{Listed, Local};
+use crate::math::{Listed, Local, ShortArray};
 
 /// A corner turns by less than this angle, rad, if its two edges count as one line.
 const FLAT: f64 = 1e-9;
@@ -27,7 +27,7 @@ pub fn convex_corners(corners: &[Local]) -> (Vec<Local>, f64) {
     let of = |k: usize| {
         let [a, b, c] = [corners[(k + n - 1) % n], corners[k], corners[(k + 1) % n]];
         let sine = turn(a, b, c);
-        let [first, second] = [b - a, c - b].map(|way| way.scale(1.0 / way.norm()));
+        let [first, second] = [b - a, c - b].each(|way| way.scale(1.0 / way.norm()));
         // the sum of the directions of both edges away from the corner has the length 2 cos β and the height sin β cos β
         (sine > FLAT).then(|| b + (second - first).scale(radius / sine))
     };
@@ -118,7 +118,7 @@ fn triangles(corners: &[Local]) -> Vec<Vec<usize>> {
         let at = |k: usize| [left[(k + n - 1) % n], left[k], left[(k + 1) % n]];
         // the ear with the largest of the smallest angles avoids needles
         let ears = (0..n).filter(|k| is_ear(corners, at(*k), &left));
-        let quality = |k: &usize| roundness(at(*k).map(|k| corners[k]));
+        let quality = |k: &usize| roundness(at(*k).each(|k| corners[k]));
         let Some(ear) = ears.max_by(|a, b| quality(a).total_cmp(&quality(b))) else { break };
         found.push(at(ear).to_vec());
         left.remove(ear);
@@ -133,7 +133,7 @@ fn roundness([a, b, c]: [Local; 3]) -> f64 {
 }
 
 fn is_ear(corners: &[Local], ear: [usize; 3], left: &[usize]) -> bool {
-    let [a, b, c] = ear.map(|k| corners[k]);
+    let [a, b, c] = ear.each(|k| corners[k]);
     if turn(a, b, c) <= 0.0 {
         return false;
     }

@@ -4,7 +4,7 @@
 //! distance and extrapolated to the break, so that neither rounding errors nor curvature count as a jump.
 
 use super::plane_curve::Curve;
-use crate::math::{each, Local};
+use crate::math::{each, Local, ShortArray};
 
 /// The distance from a break, relative to the length of the range of u.
 const OFF: f64 = 1e-8;
@@ -39,7 +39,7 @@ pub(super) fn jump(curve: &Curve, largest: [f64; 2]) -> Option<Jump> {
 fn extended(curve: &Curve, u: f64, by: f64) -> [Local; 2] {
     let terms = curve.derivatives(u);
     let along = |x: fn(&Local) -> f64| {
-        let [c0, c1, c2, c3] = terms.each_ref().map(x);
+        let [c0, c1, c2, c3] = terms.each_ref().each(x);
         [c0 + by * (c1 + 0.5 * by * c2), c1 + by * (c2 + 0.5 * by * c3)]
     };
     let [x, y] = [along(|c| c.x), along(|c| c.y)];

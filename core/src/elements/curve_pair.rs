@@ -23,7 +23,7 @@ use super::normal_fan::{
     direction, nearest_direction, terms, ExtremePlace, NormalFan, Patch, ALL_AROUND, DIRECTIONS,
 };
 use super::plane_curve::Curve;
-use crate::math::{each, Local, Pose, Real, Rotation};
+use crate::math::{each, Local, Pose, Real, Rotation, ShortArray};
 use std::f64::consts::{PI, TAU};
 
 /// Largest number of steps of a search for θ.
@@ -104,7 +104,7 @@ impl Both<'_> {
     fn least(&self, theta: f64) -> [(f64, [f64; 2]); 2] {
         let own = [self.fans[0].least_radius(self.facing(theta)), self.fans[1].least_radius(theta)];
         // beyond the end of an arc there is a corner
-        let sure = own.map(|[radius, room]| if room.is_finite() { 0.0 } else { radius });
+        let sure = own.each(|[radius, room]| if room.is_finite() { 0.0 } else { radius });
         let [[i, room_i], [j, room_j]] = own;
         [(i + j, [room_i, room_j]), (sure[0] + sure[1], [f64::INFINITY; 2])]
     }
@@ -127,7 +127,7 @@ impl Both<'_> {
     /// σ in the stored directions; -∞ where a body is endless.
     fn rough(&self) -> Vec<f64> {
         let first = nearest_direction(PI - self.angle);
-        let [i, j] = self.fans.map(|fan| &fan.grid);
+        let [i, j] = self.fans.each(|fan| &fan.grid);
         let of = |k: usize| match (i[(k + first) % DIRECTIONS], j[k]) {
             (Some(of_i), Some(of_j)) => ALL_AROUND[k].dot(self.seen.place(of_i) - of_j),
             _ => f64::NEG_INFINITY,

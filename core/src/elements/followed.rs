@@ -2,7 +2,7 @@
 
 use super::attachment::Attachment;
 use super::quantity_kind::QuantityKind;
-use crate::math::{Local, Pose, Real, Twist};
+use crate::math::{Local, Pose, Real, ShortArray, Twist};
 
 /// A body of a model: 0 is ground, and moving bodies are numbered from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -127,7 +127,7 @@ pub struct Acted<S = f64> {
 impl<S: From<f64>> From<CoordinateOf> for Acted<S> {
     fn from(of: CoordinateOf) -> Self {
         let along = |step: f64| {
-            [0, 1, 2].map(|k| S::from(if k == of.coordinate.column() { step } else { 0.0 }))
+            [0, 1, 2].each(|k| S::from(if k == of.coordinate.column() { step } else { 0.0 }))
         };
         Self { of: of.into(), gradient: [along(-1.0), along(1.0)] }
     }

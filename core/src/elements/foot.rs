@@ -17,7 +17,7 @@ use super::nearest::{AlongCurve, CurveSearch};
 use super::normal_fan::NormalFan;
 use super::plane_curve::Curve;
 use crate::expression::Tape;
-use crate::math::{each, Listed, Local, Real};
+use crate::math::{each, Listed, Local, Real, ShortArray};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Largest number of searches that are kept for each element.
@@ -195,7 +195,7 @@ impl Rim {
         let reach = distance.abs() + 2.0 * within;
         let near = search.branches((p, u), reach, (way.by, way.error));
         let bend = near.turning(out, distance, within);
-        let ends = curve.range().map(|u| (p - curve.point(u)).norm());
+        let ends = curve.range().each(|u| (p - curve.point(u)).norm());
         let bend = match curve.periodic() || ends[0].min(ends[1]) > reach {
             true => bend,
             false => bend.max(from_corner(distance, within)),

@@ -140,7 +140,7 @@ pub mod forces {
 pub mod test_elements;
 
 use crate::expression::Tape;
-use crate::math::{Lift, Listed, Local, Pose, Real, Vec2, Wrench};
+use crate::math::{Lift, Listed, Local, Pose, Real, ShortArray, Vec2, Wrench};
 pub use apart::{Apart, Way};
 pub use attachment::Attachment;
 pub use clearance::Clearance;
@@ -288,7 +288,7 @@ pub fn beam_lock(nodes: [BodyId; 4], axis: usize, numbers: &PieceNumbers) -> Con
     let [_, _, bending] = stiffness;
     let [stretch, slide, curvature] = strains;
     let [by_force, by_moment] = stresses;
-    let along = [0, 1].map(|k| Tape::from(f64::from(u8::from(k == axis))));
+    let along = [0, 1].each(|k| Tape::from(f64::from(u8::from(k == axis))));
     Constraint::BeamLock(BeamLock {
         i,
         j,

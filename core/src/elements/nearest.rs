@@ -9,7 +9,7 @@ use super::contact::curvature;
 use super::kinds::Side;
 use super::normal_fan::NormalFan;
 use super::plane_curve::Curve;
-use crate::math::{Listed, Local};
+use crate::math::{Listed, Local, ShortArray};
 use std::sync::OnceLock;
 
 /// The smallest number of pieces, a power of two.
@@ -152,7 +152,7 @@ impl CurveSearch {
         let rise = (0..count).map(rise).fold(0.0, f64::max);
         let bend = |k: f64| curvature(&curve.derivatives(a + (b - a) * k / count as f64));
         let bends = (0..count).map(|k| {
-            let all = [0.0, 0.5, 1.0].map(|part| MARGIN * bend(k as f64 + part));
+            let all = [0.0, 0.5, 1.0].each(|part| MARGIN * bend(k as f64 + part));
             [all.into_iter().fold(0.0, f64::min), all.into_iter().fold(0.0, f64::max)]
         });
         let bends = bends.collect();
@@ -355,7 +355,7 @@ fn of_segments([a, b]: [Local; 2], [c, d]: [Local; 2]) -> f64 {
     let side = |from: Local, to: Local, p: Local| (to - from).cross(p - from);
     let crosses = side(a, b, c) * side(a, b, d) <= 0.0 && side(c, d, a) * side(c, d, b) <= 0.0;
     let ends =
-        [(a, c, d), (b, c, d), (c, a, b), (d, a, b)].map(|(p, from, to)| to_chord(p, from, to).0);
+        [(a, c, d), (b, c, d), (c, a, b), (d, a, b)].each(|(p, from, to)| to_chord(p, from, to).0);
     if crosses {
         0.0
     } else {

@@ -8,7 +8,7 @@
 use super::contact::{curvature, places};
 use super::kinds::Side;
 use super::plane_curve::Curve;
-use crate::math::{Listed, Local, Real};
+use crate::math::{Listed, Local, Real, ShortArray};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
 
@@ -134,7 +134,7 @@ impl NormalFan {
             (0..DIRECTIONS).map(at).map(|of| (of.patch != Patch::Outside).then_some(of.point));
         own.grid = grid.list();
         let known = own.grid.iter().flatten();
-        let [low, high] = [f64::min, f64::max].map(|pick| {
+        let [low, high] = [f64::min, f64::max].each(|pick| {
             let start = pick(f64::INFINITY, f64::NEG_INFINITY);
             known.clone().fold([-start; 2], |m, p| [pick(m[0], p.x), pick(m[1], p.y)])
         });
@@ -155,7 +155,7 @@ impl NormalFan {
         let count = all.len();
         let edge = |k: usize| FlatEdge {
             theta: all[(k + 1) % count].0,
-            ends: [all[k].1, all[(k + 1) % count].1].map(Patch::Corner),
+            ends: [all[k].1, all[(k + 1) % count].1].each(Patch::Corner),
         };
         self.edges = (0..count).map(edge).list();
     }
@@ -164,7 +164,7 @@ impl NormalFan {
         let Curve::Line { from, to } = &self.curve else { return };
         let theta = angle((-(*to - *from).perp()).scale(self.out));
         let ends = if self.out > 0.0 { [0, 1] } else { [1, 0] };
-        let [first, last] = ends.map(Patch::Corner);
+        let [first, last] = ends.each(Patch::Corner);
         let walls = [theta - FRAC_PI_2, theta + FRAC_PI_2];
         self.parts = vec![(walls[0], first), (theta, last), (walls[1], Patch::Outside)];
         let mut edges = [FlatEdge { theta, ends: [first, last] }; 3];
@@ -193,9 +193,9 @@ impl NormalFan {
             return;
         }
         let ends = if self.out > 0.0 { [1, 0] } else { [0, 1] };
-        let [end, start] = ends.map(|k| corner(&self.curve, k));
+        let [end, start] = ends.each(|k| corner(&self.curve, k));
         let chord = last + turn(last, angle(-(start - end).perp()));
-        let ends = ends.map(Patch::Corner);
+        let ends = ends.each(Patch::Corner);
         self.parts.extend([(last, ends[0]), (chord, ends[1])]);
         self.edges = vec![FlatEdge { theta: chord, ends }];
     }

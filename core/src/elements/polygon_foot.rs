@@ -10,7 +10,7 @@ use super::near::{choose, Near};
 use super::plane_curve::Curve;
 use super::polygon::{constant, Edge, Polygon};
 use crate::expression::Tape;
-use crate::math::{each, Local, Real};
+use crate::math::{each, Local, Real, ShortArray};
 use std::f64::consts::TAU;
 
 /// The edge or corner nearest to a point.
@@ -165,7 +165,8 @@ impl Polygon {
             None => {
                 let k = support - self.edges.len();
                 let arm = p - constant(self.edges[k].from);
-                let [last, next] = [self.before(k), &self.edges[k]].map(|e| constant::<S>(e.along));
+                let [last, next] =
+                    [self.before(k), &self.edges[k]].each(|e| constant::<S>(e.along));
                 last.dot(arm).min(-next.dot(arm))
             }
         };

@@ -1,6 +1,6 @@
 //! A value as written in a file, and the arguments of typed methods that are converted to values.
 
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 /// A value as written in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
@@ -74,7 +74,7 @@ impl From<Words> for Value {
 }
 impl From<Pair> for Value {
     fn from(pair: Pair) -> Self {
-        Self::List(pair.0.map(Self::from).into())
+        Self::List(pair.0.each(Self::from).into())
     }
 }
 
@@ -109,7 +109,7 @@ pub struct Pair([Number; 2]);
 
 impl<N: Into<Number>> From<[N; 2]> for Pair {
     fn from(pair: [N; 2]) -> Self {
-        Self(pair.map(Into::into))
+        Self(pair.each(Into::into))
     }
 }
 impl<X: Into<Number>, Y: Into<Number>> From<(X, Y)> for Pair {

@@ -6,7 +6,7 @@
 use super::light::{self, Internal, Light};
 use super::plan::Plan;
 use super::{mass, Compiled};
-use crate::math::{indexed, Listed, Motion, Real};
+use crate::math::{indexed, Listed, Motion, Real, ShortArray};
 use crate::model::Model;
 use crate::solve::{Breakdown, InverseMass, LightGroup, Saddle};
 use std::sync::Arc;
@@ -247,7 +247,7 @@ impl<S: Real> Augmented<S> {
         let added = self.light.iter().flat_map(|light| &light.added);
         let of_body = |(motion, [mass, inertia]): (&Motion<S>, &[f64; 2])| {
             let [speed, omega] = [motion.twist.velocity.norm(), motion.twist.omega];
-            let [speed, omega] = [speed, omega].map(|x| x.largest_magnitude());
+            let [speed, omega] = [speed, omega].each(|x| x.largest_magnitude());
             0.5 * (mass * speed * speed + inertia * omega * omega)
         };
         motions.iter().skip(1).zip(added).map(of_body).sum()

@@ -12,7 +12,7 @@ use crate::elements::derive::{
 };
 use crate::elements::{At, BodyId, Constraint, Coordinate, Joint, Linearized, Moving};
 use crate::expression::Tape;
-use crate::math::{Jet, Listed, Motion, Pose, Real, Twist};
+use crate::math::{Jet, Listed, Motion, Pose, Real, ShortArray, Twist};
 use crate::model::{Block, Model, Slots};
 
 /// Φ(q, t), shape (m).
@@ -52,7 +52,7 @@ pub fn jacobian<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, entries: 
 
 /// Φ, Φ_q q̇ + Φ_t, and γ, each of shape (m).
 pub fn terms_at<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S) -> [Vec<S>; 3] {
-    let [mut phi, mut rate, mut gamma] = [(); 3].map(|()| vec![S::zero(); model.layout.n_rows]);
+    let [mut phi, mut rate, mut gamma] = [(); 3].each(|()| vec![S::zero(); model.layout.n_rows]);
     velocity_terms(model, motions, t, &mut phi, &mut rate, &mut gamma);
     [phi, rate, gamma]
 }

@@ -5,7 +5,7 @@ use super::kinematics::Motions;
 use super::reactive::rows_of;
 use crate::elements::derive::{seeded, ByThree};
 use crate::elements::{BodyId, Mode};
-use crate::math::{Dual, Lift, Listed, Ordered, Pose, Real, Twist, Vec2};
+use crate::math::{Dual, Lift, Listed, Ordered, Pose, Real, ShortArray, Twist, Vec2};
 use crate::model::{Block, Columns, Dependence, Model};
 use std::collections::BTreeMap;
 
@@ -137,7 +137,7 @@ fn internals(model: &Model, depends: &Dependence) -> Vec<(usize, Columns)> {
 /// Φ_q of one owner does not change with the coordinates of another owner, no pair is needed. This is the case for
 /// every revolute joint.
 pub(super) fn by_constraint(lifted: &Model<D>, pairs: &mut Pairs) -> Vec<ByConstraint> {
-    let trials = [0, 1].map(|trial| without_pattern(lifted, trial));
+    let trials = [0, 1].each(|trial| without_pattern(lifted, trial));
     let mut columns = vec![D::zero(); lifted.layout.n_entries];
     let constraint = |k: usize| {
         let blocks = &lifted.layout.constraints[k].blocks;

@@ -15,7 +15,7 @@ use super::coupling::Participants;
 use super::light::{Internal, Light};
 use super::plan::row_blocks;
 use super::tangent::{Entry, Tangent};
-use crate::math::{Field, Listed};
+use crate::math::{indexed, Field, Listed};
 use crate::model::{Model, StateLayout};
 use crate::solve::{BlockLu, LuPlan};
 use std::ops::Range;
@@ -167,7 +167,7 @@ pub fn assemble<F: Field>(
     }
     for own in &places.internals {
         let block = lu.block_mut(places.pairs[own.owner]);
-        let added = own.inertia(|row| std::array::from_fn(|c| tangent.jacobian[3 * row + c]));
+        let added = own.inertia(|row| indexed(|c| tangent.jacobian[3 * row + c]));
         (0..own.size).for_each(|d| block[d][d] += c_a * real(added[d]));
     }
     for &(first, m, lower, upper) in &places.jacobian {

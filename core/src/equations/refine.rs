@@ -9,7 +9,7 @@ use super::augmented::Augmented;
 use super::kinematics::Motions;
 use super::mass::MassBlock;
 use super::{constraints, mass};
-use crate::math::{Largest, Listed, Real};
+use crate::math::{Largest, Listed, Real, ShortArray};
 use crate::model::Model;
 use crate::solve::Breakdown;
 use std::ops::Range;
@@ -44,7 +44,7 @@ pub struct Memory<S> {
 
 impl<S> Default for Memory<S> {
     fn default() -> Self {
-        let [b, solution, correction] = [(); 3].map(|()| Vec::new());
+        let [b, solution, correction] = [(); 3].each(|()| Vec::new());
         Self { b, solution, correction, masses: Vec::new() }
     }
 }

@@ -4,7 +4,7 @@ use super::constraints::{self};
 use super::kinematics::Motions;
 use super::Compiled;
 use crate::elements::{Joint, Linearized, Moving, Pooled, VisitJoints};
-use crate::math::{Largest, Listed, Real};
+use crate::math::{Largest, Listed, Real, ShortArray};
 use crate::model::{row_scales, Model};
 
 /// Φ and Φ̇ of one model, at the last evaluated state.
@@ -56,7 +56,7 @@ impl<S: Real> Residuals<S> {
                 largest.add(*x * S::constant(*per_scale));
             }
         }
-        largest.map(|largest| largest.get())
+        largest.each(|largest| largest.get())
     }
 
     /// Computes the stored entries of Φ_q.
@@ -80,7 +80,7 @@ impl<S: Real> VisitJoints<S> for Look<'_, S> {
             return pool.iter().for_each(|own| self.one(own.place.item as usize));
         }
         for Pooled { element, place } in pool {
-            let bodies = place.bodies.map(|body| self.motions[body as usize]);
+            let bodies = place.bodies.each(|body| self.motions[body as usize]);
             let at = Moving { bodies: &bodies, own: &[], own_rates: &[], t: self.t };
             let [mut residual, mut rate, mut gamma] = [[S::zero(); 2]; 3];
             let out = Linearized {

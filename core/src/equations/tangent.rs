@@ -17,7 +17,7 @@ use super::kinematics::Motions;
 use super::mass::{self, MassBlock};
 use super::{reactions, reactive};
 use crate::elements::derive::{seeded, ByThree};
-use crate::math::{each, Dual, Lift, Motion, Real, Twist, Vec2};
+use crate::math::{each, Dual, Lift, Motion, Real, ShortArray, Twist, Vec2};
 use crate::model::{Block, Body, Columns, Model, Slots};
 
 type D = ByThree<f64>;
@@ -229,7 +229,7 @@ impl Tangent {
                 reactions::add_load_slopes(model, motions, t, (lam, row), &mut column);
                 for block in &slots.blocks {
                     let of = model.layout.owners[block.owner].of(&column);
-                    let values = of.map(|slope| -slope);
+                    let values = of.each(|slope| -slope);
                     self.states.reactions.push(Entry { owner: block.owner, at: row, values });
                 }
             }

@@ -9,6 +9,7 @@ use super::table::Table;
 use super::tree::{Node, NodeKind};
 use super::unit::Dimension;
 use super::{ExpressionError, Names, Symbol};
+use crate::math::ShortArray;
 use std::fmt;
 use std::ops::Range;
 
@@ -150,7 +151,7 @@ impl Inference<'_> {
     fn alike(&self, a: usize, b: usize) -> Result<Inferred, ExpressionError> {
         match (self.parts[a].of, self.parts[b].of) {
             (Inferred::Of(one), Inferred::Of(other)) if one != other => {
-                let [left, right] = [a, b].map(|k| format!("'{}'", self.written(k)));
+                let [left, right] = [a, b].each(|k| format!("'{}'", self.written(k)));
                 let message = format!(
                     "{left} is in {}, but {right} is in {}",
                     self.parts[a].of, self.parts[b].of

@@ -11,7 +11,7 @@
 
 use super::tape::Values;
 use super::{FormulaSwitch, Tape};
-use crate::math::{each, Dual, Interval, Lift, Listed, Real};
+use crate::math::{each, Dual, Interval, Lift, Listed, Real, ShortArray};
 
 /// Largest number of times.
 const MOST_TIMES: usize = 1_000_000;
@@ -201,7 +201,7 @@ impl SwitchSearch<'_> {
 
     /// Adds the times at which σ passes the boundaries between its values at a and b.
     fn pass(&self, ends: [f64; 2], out: &mut Vec<f64>) -> Result<(), TooManySwitches> {
-        let [at_a, at_b] = ends.map(|t| self.sigma(t));
+        let [at_a, at_b] = ends.each(|t| self.sigma(t));
         let (first, count) = self.switch.boundaries.between(at_a.min(at_b), at_a.max(at_b));
         if out.len() as f64 + count > MOST_TIMES as f64 {
             return Err(TooManySwitches);

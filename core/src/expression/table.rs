@@ -3,7 +3,7 @@
 use super::knots::Knots;
 use super::points::{Checked, Outside, Points, TableError, SI};
 use super::unit::{Dimension, Unit};
-use crate::math::{Interpolation, Listed, Ordered, Real, Spline};
+use crate::math::{Interpolation, Listed, Ordered, Real, ShortArray, Spline};
 use std::sync::Arc;
 
 /// Fraction of the range by which x may exceed the ends and still count as the end. An angle of 360° in rad is not
@@ -58,7 +58,7 @@ impl Table {
             interpolation: points.interpolation,
             outside: points.outside,
             x_unit: (points.x_unit.unwrap_or_default().to_string(), units[0].unwrap_or(SI)),
-            units: units.map(|unit| unit.map(|unit| unit.dimension)),
+            units: units.each(|unit| unit.map(|unit| unit.dimension)),
             ends,
             knots: None,
         };
@@ -201,7 +201,7 @@ impl Table {
         }
         let (text, unit) = &self.x_unit;
         let written = |x: f64| format!("{}", rounded(x * unit.denominator / unit.numerator));
-        let [first, last] = self.range().map(written);
+        let [first, last] = self.range().each(written);
         let (name, x) = (&self.name, written(x));
         Some(
             format!("table '{name}' is read at x = {x} {text}").trim_end().to_string()

@@ -4,7 +4,7 @@ use super::operation::{Binary, Relation, Unary};
 use super::switch::{Boundaries, Piecewise};
 use super::table::Table;
 use super::{Symbol, MAX_OPERANDS};
-use crate::math::Real;
+use crate::math::{indexed, Real};
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -281,9 +281,8 @@ impl Tape {
     pub fn switches(&self) -> Vec<FormulaSwitch> {
         let mut stack: Vec<[bool; 2]> = Vec::new(); // time, state
         let mut switches = Vec::with_capacity(self.switches);
-        let any = |all: &[[bool; 2]]| -> [bool; 2] {
-            std::array::from_fn(|k| all.iter().any(|operand| operand[k]))
-        };
+        let any =
+            |all: &[[bool; 2]]| -> [bool; 2] { indexed(|k| all.iter().any(|operand| operand[k])) };
         for instruction in &self.code {
             let operands = stack.split_off(stack.len() - instruction.operands());
             if let Some((boundaries, arguments, smooth)) = self.switch_of(instruction) {

@@ -30,6 +30,7 @@ use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
 use super::implicit_state::{serves, ImplicitState};
 use super::right_hand_side::all_finite;
+use crate::math::ShortArray;
 
 /// Largest number of iterations with one matrix.
 const MOST: usize = 10;
@@ -110,12 +111,12 @@ impl AlphaStep {
             of_states: parameters.of_states(),
             start: ImplicitState::new(lengths),
             end: ImplicitState::new(lengths),
-            carried: [n, states].map(Carried::new),
+            carried: [n, states].each(Carried::new),
             normal: vec![0.0; n],
             h_before: 0.0,
             x: vec![0.0; lengths.unknowns()],
             dv: vec![0.0; n],
-            error: [n, n, states].map(|len| vec![0.0; len]),
+            error: [n, n, states].each(|len| vec![0.0; len]),
             rows: vec![0.0; multipliers],
             factored: None,
             singular: false,
@@ -125,7 +126,7 @@ impl AlphaStep {
     /// Discards the data of earlier steps after a change of the state.
     pub fn forget(&mut self) {
         self.factored = None;
-        self.carried = self.carried.each_ref().map(|carried| Carried::new(carried.slope.len()));
+        self.carried = self.carried.each_ref().each(|carried| Carried::new(carried.slope.len()));
         self.normal.fill(0.0);
         self.h_before = 0.0;
     }

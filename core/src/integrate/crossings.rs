@@ -10,7 +10,7 @@ use super::events::{Bracket, Direction};
 use super::path::StepPath;
 use super::step::Step;
 use super::watched::{sign_of, Part, TooFast, Watch, WatchedStep};
-use crate::math::{Listed, Ordered, Real};
+use crate::math::{Listed, Ordered, Real, ShortArray};
 
 /// Two sign changes count as one time if they differ by at most this number of floating-point spacings.
 const TOGETHER: f64 = 8.0;
@@ -294,7 +294,7 @@ impl WatchedStep<'_, '_, '_> {
             let t = self.close(change).t;
             if around.as_ref().is_none_or(|[_, first]| sign * t < sign * first.0) {
                 let before = t - sign * NEAR * together(self.step);
-                around = Some([before, t].map(|t| self.sample(t, &all)));
+                around = Some([before, t].each(|t| self.sample(t, &all)));
             }
         }
         around

@@ -9,7 +9,7 @@ use super::right_hand_side::all_finite;
 use super::statistics::StepCounts;
 use super::step_control::StepControl;
 use super::step_size::{initial_step, probing_step};
-use crate::math::{Complex, Listed};
+use crate::math::{Complex, Listed, ShortArray};
 
 /// A DAE with the counts of its evaluations.
 pub(super) struct CountedDae<'a, Y> {
@@ -113,7 +113,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
         let change = |new: &[f64], old: &[f64]| -> Vec<f64> {
             new.iter().zip(old).map(|(new, old)| (new - old) / h0).list()
         };
-        let [dv, da] = [(&probe.v, &start.v), (&probe.a, &start.a)].map(|(x, y)| change(x, y));
+        let [dv, da] = [(&probe.v, &start.v), (&probe.a, &start.a)].each(|(x, y)| change(x, y));
         let d2 = weights.norm(&dv, &da, &change(&probe.dz, &start.dz));
         if !d2.is_finite() {
             return Ok(h0);

@@ -23,7 +23,7 @@ use super::component_polynomials::{store, Four, Polynomials, HIGHEST as DEGREE};
 use super::interpolant::Interpolant;
 use super::ode::Structure;
 use super::stages;
-use crate::math::{each, indexed, Lanes, Real};
+use crate::math::{each, indexed, Lanes, Real, ShortArray};
 
 /// Place of the additional second derivative, as a fraction of the step. For equal steps the error of v is smallest
 /// between 0.55 and 0.6. DOP853 has a stage near this place already, so that its widest gap is unchanged.
@@ -50,8 +50,8 @@ impl<'a> Ends<'a> {
         dy: [&'a [stages::Block]; 2],
         n: usize,
     ) -> Self {
-        let [y_old, y] = y.map(|y| &y.as_flattened()[..n]);
-        let [dy_old, dy] = dy.map(|dy| &dy.as_flattened()[..n]);
+        let [y_old, y] = y.each(|y| &y.as_flattened()[..n]);
+        let [dy_old, dy] = dy.each(|dy| &dy.as_flattened()[..n]);
         Self { h, y_old, y, dy_old, dy }
     }
 }
@@ -197,7 +197,7 @@ impl HermiteBirkhoff {
         let (p, h) = (self.positions, Lanes::constant(ends.h));
         let last = last_term(self.h_before / ends.h);
         let per_slope = Lanes::constant(1.0 / at_inside(&last)[2]);
-        let last = last.map(Lanes::constant);
+        let last = each(last, Lanes::constant);
         let half = Lanes::constant(0.5) * h;
         let (of_q, of_rates) = self.polynomials.split_at_mut(p.div_ceil(Lanes::WIDTH));
         for (b, (block, rates)) in self.blocks.iter_mut().zip(of_rates).enumerate() {

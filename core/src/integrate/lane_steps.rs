@@ -11,7 +11,7 @@ use super::right_hand_side::all_finite;
 use super::runge_kutta::{RungeKutta, TrialStages};
 use super::stages::{combine, row, Block};
 use super::tolerances::LaneTolerances;
-use crate::math::{each, indexed, Lanes, Listed, Real};
+use crate::math::{each, indexed, Lanes, Listed, Real, ShortArray};
 use std::any::TypeId;
 use std::marker::PhantomData;
 
@@ -274,7 +274,7 @@ impl LaneSteps {
                 taken[lane] = if accepted { Taken::Accepted } else { Taken::Rejected };
             }
         }
-        let accepted = taken.map(|taken| taken == Taken::Accepted);
+        let accepted = taken.each(|taken| taken == Taken::Accepted);
         if !accepted.contains(&true) {
             return taken;
         }

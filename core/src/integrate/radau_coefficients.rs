@@ -5,6 +5,7 @@
 //! eigenvalues, so that the equations of Newton's iteration separate into a real and a complex system (Hairer and
 //! Wanner, *Solving Ordinary Differential Equations II*, IV.5 and IV.8).
 
+use crate::math::indexed;
 use std::sync::LazyLock;
 
 /// √6.
@@ -81,7 +82,7 @@ fn integrated(nodes: &[f64], k: usize) -> [f64; DEGREE] {
             polynomial[power] = scale * (lower - node * polynomial[power]);
         }
     }
-    std::array::from_fn(|power| polynomial[power] / (power + 1) as f64)
+    indexed(|power| polynomial[power] / (power + 1) as f64)
 }
 
 /// Σ aᵢ bᵢ.
@@ -92,7 +93,7 @@ pub(super) fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 
 /// Values at θ of the Lagrange polynomials for the nodes.
 pub(super) fn lagrange<const N: usize>(nodes: [f64; N], theta: f64) -> [f64; N] {
-    std::array::from_fn(|k| {
+    indexed(|k| {
         let others = nodes.iter().enumerate().filter(|(j, _)| *j != k);
         others.fold(1.0, |product, (_, node)| product * (theta - node) / (nodes[k] - node))
     })
@@ -103,7 +104,7 @@ mod tests {
     use super::*;
 
     fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-        std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
+        indexed(|i| indexed(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
     }
 
     fn close(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) {

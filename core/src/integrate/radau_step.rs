@@ -19,7 +19,7 @@ use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
 use super::implicit_state::{serves, ImplicitState};
 use super::radau_coefficients::{dot, lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
-use crate::math::{indexed, Complex, Field};
+use crate::math::{indexed, Complex, Field, ShortArray};
 
 /// Relative size of velocity corrections that are rounding errors, compared with the largest velocity.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -85,7 +85,7 @@ impl RadauStep {
             real: vec![0.0; unknowns],
             complex: vec![Complex::zero(); unknowns],
             dq: vec![0.0; n],
-            error: [n, n, states].map(|len| vec![0.0; len]),
+            error: [n, n, states].each(|len| vec![0.0; len]),
             moved: ImplicitState::new(lengths),
             along: vec![0.0; n],
             fresh: false,
@@ -237,7 +237,7 @@ impl RadauStep {
         let scaled = complex_step(h);
         for k in 0..real.len() {
             let r = [r[0][k], r[1][k], r[2][k]];
-            let [first, second, third] = T_INVERSE.map(|row| dot(&row, &r));
+            let [first, second, third] = T_INVERSE.each(|row| dot(&row, &r));
             let pair = Complex::new(second, third);
             (real[k], complex[k]) =
                 if k < n { (-h / REAL * first, -(scaled * pair)) } else { (-first, -pair) };

@@ -3,7 +3,7 @@
 use super::ode::Structure;
 use super::stages::{room, Block};
 use super::step_control::Atol;
-use crate::math::{indexed, Lanes, Real};
+use crate::math::{each, indexed, Lanes, Real, ShortArray};
 
 /// Tolerances of all controlled components.
 pub(super) struct Tolerances {
@@ -81,7 +81,7 @@ impl Squares for Tolerances {
             let scale = scale([y[i], y_new[i]], (Lanes::new(self.atol[i]), rtol));
             add_squares(&mut sums, x(i), scale);
         }
-        sums.map(|sum| {
+        each(sums, |sum: Lanes| {
             let [a, b, c, d] = sum.to_array();
             (a + b) + (c + d)
         })
@@ -91,7 +91,7 @@ impl Squares for Tolerances {
 /// atol + rtol max(|y|, |y_new|).
 #[inline(always)]
 fn scale(states: [Block; 2], (atol, rtol): (Lanes, Lanes)) -> Lanes {
-    let [y, y_new] = states.map(|y| Lanes::new(y).abs());
+    let [y, y_new] = states.each(|y| Lanes::new(y).abs());
     atol.plus_product(rtol, y.max(y_new))
 }
 

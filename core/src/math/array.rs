@@ -29,3 +29,33 @@ pub(crate) fn indexed<U: Copy, const N: usize>(mut f: impl FnMut(usize) -> U) ->
     }
     all
 }
+
+/// Short arrays, whose items may own memory.
+pub(crate) trait ShortArray<T> {
+    /// The array of as many items of another type.
+    type Of<U>;
+    /// `f` of each item.
+    fn each<U>(self, f: impl FnMut(T) -> U) -> Self::Of<U>;
+}
+
+macro_rules! short {
+    ($($N:literal: $($item:ident)+;)+) => {$(
+        impl<T> ShortArray<T> for [T; $N] {
+            type Of<U> = [U; $N];
+            #[inline(always)]
+            fn each<U>(self, mut f: impl FnMut(T) -> U) -> [U; $N] {
+                let [$($item),+] = self;
+                [$(f($item)),+]
+            }
+        }
+    )+};
+}
+
+short! {
+    1: a;
+    2: a b;
+    3: a b c;
+    4: a b c d;
+    5: a b c d e;
+    6: a b c d e g;
+}

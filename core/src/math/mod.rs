@@ -26,7 +26,7 @@ mod sine;
 mod spline;
 mod spline_system;
 
-pub(crate) use array::{each, indexed};
+pub(crate) use array::{each, indexed, ShortArray};
 pub use base::{compose, OverBase};
 pub use complex::Complex;
 pub use dual::Dual;

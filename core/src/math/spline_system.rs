@@ -129,11 +129,15 @@ impl<S: Real, const M: usize> Conditions<S, M> {
 }
 
 fn add<S: Real, const M: usize>(a: &mut Block<S, M>, b: &Block<S, M>) {
-    a.iter_mut().flatten().zip(b.iter().flatten()).for_each(|(a, b)| *a += *b);
+    for (a, b) in a.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
+        *a += *b;
+    }
 }
 
 fn subtract<S: Real, const M: usize>(a: &mut Block<S, M>, b: &Block<S, M>) {
-    a.iter_mut().flatten().zip(b.iter().flatten()).for_each(|(a, b)| *a -= *b);
+    for (a, b) in a.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
+        *a -= *b;
+    }
 }
 
 fn transposed<S: Real, const M: usize>(a: &Block<S, M>) -> Block<S, M> {

@@ -4,7 +4,7 @@
 //! file can have.
 
 use super::definition::{Entry, Value};
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 
 /// The `type` of a beam.
 pub const BEAM: &str = "beam";
@@ -65,7 +65,7 @@ pub fn ends(entry: &Entry) -> [String; 2] {
             return [first.clone(), last.clone()];
         }
     }
-    ["A", "B"].map(str::to_string)
+    ["A", "B"].each(str::to_string)
 }
 
 /// The named points as written.

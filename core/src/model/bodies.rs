@@ -13,7 +13,7 @@ use super::problem::Problem;
 use super::scope::Scope;
 use crate::elements::BodyId;
 use crate::expression::Tape;
-use crate::math::{Listed, Local};
+use crate::math::{Listed, Local, ShortArray};
 
 /// Reads all bodies, with index 0 for ground, and the beams among them. A faulty body is kept with placeholder
 /// numbers, so that references to it cause no further reports. `values` are those of the parameters.
@@ -193,7 +193,7 @@ impl Reader<'_> {
         let (dx, dy) = (format!("({}-{})", b.x, a.x), format!("({}-{})", b.y, a.y));
         let length = distance(a, b);
         let drawn = [mx.clone(), my.clone(), format!("atan2({dy},{dx})")];
-        body.drawn = Some(drawn.map(|text| self.compose(&text)));
+        body.drawn = Some(drawn.each(|text| self.compose(&text)));
         for p in through {
             if body.points.iter().any(|(name, _)| *name == p.name) {
                 continue;

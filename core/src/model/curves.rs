@@ -5,7 +5,7 @@ use super::problem::Problem;
 use super::scope::{Reach, Scope};
 use crate::elements::{Curve, CurveFormula, CurvePoints, Polygon, CURVE_FORMS};
 use crate::expression::{FormulaValues, Tape};
-use crate::math::{Interpolation, Listed, Local};
+use crate::math::{Interpolation, Listed, Local, ShortArray};
 
 /// Curves by name. A faulty curve is None, and its fault is reported.
 pub type Curves<S> = Vec<(String, Option<Curve<S>>)>;
@@ -110,7 +110,7 @@ impl<'a> Reader<'a> {
             )
         };
         let (x, y) = (part("cos")?, part("sin")?);
-        let range = [0.0, std::f64::consts::TAU].map(Tape::from);
+        let range = [0.0, std::f64::consts::TAU].each(Tape::from);
         Some(Curve::Formula(CurveFormula::new(x, y, range, true).polar()))
     }
 
@@ -157,7 +157,7 @@ impl<'a> Reader<'a> {
                 Interpolation::named(word)?
             }
             Some(_) => {
-                let known = Interpolation::ALL.map(Interpolation::name).join(", ");
+                let known = Interpolation::ALL.each(Interpolation::name).join(", ");
                 return self.report(Some("interpolation"), format!("must be one of {known}"));
             }
         };

@@ -14,7 +14,7 @@ use crate::elements::{
     Group, Measured, PointOn, QuantityKind, Side,
 };
 use crate::expression::{suggest, Tape};
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 
 /// A linked joint or driver.
 type Named = (String, Group, Constraint<Tape>);
@@ -301,7 +301,7 @@ impl<'a> Linker<'a> {
 
     pub(super) fn two(&mut self, field: &Field, reach: Reach) -> Option<[Tape; 2]> {
         if reach != Reach::Parameters && !self.laws {
-            return Some([0.0, 0.0].map(Tape::from));
+            return Some([0.0, 0.0].each(Tape::from));
         }
         match (self.entry.get(field.name), field.default) {
             (Some(value), _) => {
@@ -309,7 +309,7 @@ impl<'a> Linker<'a> {
                 let place = (reach, Some(self.place()));
                 self.scope.two(value, &path, &field.unit, place, self.problems)
             }
-            (None, Some(Default::Pair(p))) => Some(p.map(Tape::from)),
+            (None, Some(Default::Pair(p))) => Some(p.each(Tape::from)),
             (None, _) => self.missing(field),
         }
     }

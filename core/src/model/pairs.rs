@@ -12,7 +12,7 @@ use crate::elements::{
     Polygon, Side, Source, Table,
 };
 use crate::expression::Tape;
-use crate::math::{Listed, Local};
+use crate::math::{Listed, Local, ShortArray};
 
 /// The fields of the two forms of a contact.
 const OF_POINT: [&str; 3] = ["i", "curve", "side"];
@@ -85,7 +85,7 @@ fn of_point(fields: &[Field], linker: &mut Linker<'_>) -> Option<Vec<Pairing>> {
         let message = "belongs to a contact of two curves".to_string();
         return linker.report(field(fields, OF_CURVES[1]), message, Some(hint.to_string()));
     }
-    let [point, curve, side] = OF_POINT.map(|name| field(fields, name));
+    let [point, curve, side] = OF_POINT.each(|name| field(fields, name));
     let on = linker.curve(curve)?;
     let TouchForm::Edged { parts, .. } = TouchForm::of(&on, Side::Right) else {
         return Some(Vec::new());
@@ -112,7 +112,7 @@ const INSIDE: &str = "a polygon is touched from outside, at its right; \
 
 /// The pairings of two curves.
 fn of_curves(fields: &[Field], linker: &mut Linker<'_>) -> Option<Vec<Pairing>> {
-    let [curves, sides] = OF_CURVES.map(|name| field(fields, name));
+    let [curves, sides] = OF_CURVES.each(|name| field(fields, name));
     if let Some(name) = OF_POINT.iter().find(|name| linker.entry.get(name).is_some()) {
         let hint = format!("keep either {name} or curves");
         let message = "takes the place of i, curve and side".to_string();

@@ -6,7 +6,7 @@ use crate::elements::{
     Measured, PointOn, QuantityOf, Strands, PLACE,
 };
 use crate::expression::{Symbol, Tape, Values};
-use crate::math::{Listed, Local, Pose, Real, Twist};
+use crate::math::{Listed, Local, Pose, Real, ShortArray, Twist};
 use crate::symbolic::{record, Name, Record, Symbolic};
 
 /// An owner of quantities.
@@ -57,7 +57,7 @@ impl<S> QuantityOwner<S> {
                 let joint = joint.map(f);
                 let carrier = carrier.as_ref().map(|Carrier { body, centres }| Carrier {
                     body: *body,
-                    centres: centres.each_ref().map(|s| Local { x: f(&s.x), y: f(&s.y) }),
+                    centres: centres.each_ref().each(|s| Local { x: f(&s.x), y: f(&s.y) }),
                 });
                 QuantityOwner::Play(joint, carrier)
             }
@@ -156,7 +156,7 @@ impl QuantityOwner<Tape> {
             word: PLACE,
             kind: curve.curve.kind(),
             bodies: [bodies[0], bodies[1]],
-            ends: [0, 1].map(|_| origin.clone()),
+            ends: [0, 1].each(|_| origin.clone()),
             value: Tape::shifted(Symbol::Variable(variable.index()), 0.0),
         })))
     }

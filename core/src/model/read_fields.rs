@@ -9,7 +9,7 @@ use crate::elements::{
     PointOn, QuantityKind, Side, Source,
 };
 use crate::expression::Tape;
-use crate::math::{Listed, Local};
+use crate::math::{Listed, Local, ShortArray};
 use std::sync::Arc;
 
 use super::link::{did_you_mean, Linker};
@@ -148,7 +148,7 @@ impl Source for Linker<'_> {
                 let message = format!("must be a list of three numbers, not {}", other.noun());
                 return self.report(field, message, None);
             }
-            (None, Some(Default::Triple(x))) => return Some(x.map(Tape::from)),
+            (None, Some(Default::Triple(x))) => return Some(x.each(Tape::from)),
             (None, _) => return self.missing(field),
         };
         let units: Vec<&str> = field.unit.split(',').list();

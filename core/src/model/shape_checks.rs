@@ -3,7 +3,7 @@
 use super::body_shape::{BodyShape, Form, Matter};
 use super::items::Body;
 use super::problem::Problem;
-use crate::math::Local;
+use crate::math::{Local, ShortArray};
 
 /// The mass of a body is a rounding error below this fraction of the masses that are summed.
 const ROUNDING: f64 = 1e-12;
@@ -14,7 +14,7 @@ pub(super) fn shapes(body: &Body, problems: &mut Vec<Problem>) {
     for (k, shape) in body.shapes.iter().enumerate() {
         let kind = shape.form.kind();
         for (key, message) in faults(shape) {
-            let path = ["bodies", &body.name, "shapes", &k.to_string(), key].map(str::to_string);
+            let path = ["bodies", &body.name, "shapes", &k.to_string(), key].each(str::to_string);
             let message = format!("shape {} ({kind}): {message}", k + 1);
             problems.push(Problem::at(&path, message));
         }

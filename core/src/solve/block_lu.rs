@@ -131,7 +131,9 @@ fn times<F: Field>(a: &Block<F>, x: &[F; 3]) -> [F; 3] {
 
 #[inline(always)]
 fn subtract<F: Field>(a: &mut Block<F>, b: &Block<F>) {
-    a.iter_mut().flatten().zip(b.iter().flatten()).for_each(|(a, b)| *a -= *b);
+    for (a, b) in a.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
+        *a -= *b;
+    }
 }
 
 /// The inverse by Gauss–Jordan elimination with row exchanges. The error is the row without a pivot.

@@ -1,7 +1,7 @@
 //! Eigenvalues of a dense real matrix by the QR algorithm with double shifts (Golub and Van Loan, *Matrix Computations*,
 //! 4th ed., 7.4 and 7.5), after balancing (Parlett and Reinsch, *Numerische Mathematik* 13, 1969).
 
-use crate::math::{Complex, Listed};
+use crate::math::{Complex, Listed, ShortArray};
 
 /// Largest number of steps for one eigenvalue; two to four are usual.
 const STEPS: usize = 300;
@@ -122,7 +122,7 @@ impl Square {
     /// The two eigenvalues of the block of two rows at `k`.
     fn pair(&self, k: usize) -> [Complex; 2] {
         let [a, b, c, d] =
-            [(k, k), (k, k + 1), (k + 1, k), (k + 1, k + 1)].map(|(i, j)| self.at(i, j));
+            [(k, k), (k, k + 1), (k + 1, k), (k + 1, k + 1)].each(|(i, j)| self.at(i, j));
         let half = 0.5 * (a - d);
         let square = half * half + b * c;
         if square < 0.0 {

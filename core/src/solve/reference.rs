@@ -10,7 +10,7 @@ use super::mass_block::dot;
 use super::pattern::{GroupRow, Pattern};
 use super::records::LightRow;
 use super::saddle::Saddle;
-use crate::math::{Listed, Real};
+use crate::math::{Listed, Real, ShortArray};
 
 /// A light group: the ratios W/M̃ of its first two unknowns and of its third one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,7 @@ impl<S: Real> Saddle<S> {
         groups.iter().for_each(|light| of_group[light.group] = Some(light.ratios));
         let rows = pattern.rows_of_groups().into_iter();
         let light = |GroupRow { entry, group, sum }: GroupRow| {
-            let excess = of_group[group as usize]?.map(|ratio: f64| 1.0 - ratio);
+            let excess = of_group[group as usize]?.each(|ratio: f64| 1.0 - ratio);
             Some(LightRow { entry, group, sum, excess })
         };
         self.light = rows.filter_map(light).list();
@@ -39,7 +39,7 @@ impl<S: Real> Saddle<S> {
     pub(super) fn count_light_as_reference(&mut self) {
         for &LightRow { entry, group, sum, excess: [moved, turned] } in &self.light {
             let (mass, row) = (&self.masses[group as usize], &self.entries[entry as usize]);
-            let [d0, d1] = mass.translation.map(|inverse| inverse + mass.held);
+            let [d0, d1] = mass.translation.each(|inverse| inverse + mass.held);
             let along = dot(row, &mass.direction);
             let first = row[0] * row[0] * d0 + row[1] * row[1] * d1;
             self.factors[sum as usize] -=

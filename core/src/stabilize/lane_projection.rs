@@ -6,7 +6,7 @@
 
 use super::projection::{Projection, CLOSED, MARGIN, MOST, SLOW};
 use crate::equations::{Residuals, Workspace};
-use crate::math::{indexed, Lanes, Listed, Real};
+use crate::math::{indexed, Lanes, Listed, Real, ShortArray};
 use crate::model::{column_scales, row_scales, Model};
 
 const WIDTH: usize = Lanes::WIDTH;
@@ -48,8 +48,8 @@ impl LaneProjector {
         };
         Self {
             tolerance: options.tolerance,
-            per_column: side_by_side(models.map(column_scales)),
-            per_row: side_by_side(models.map(row_scales)),
+            per_column: side_by_side(models.each(column_scales)),
+            per_row: side_by_side(models.each(row_scales)),
             residuals: Residuals::new(wide),
             correction: vec![Lanes::zero(); wide.layout.n_q + wide.layout.n_rows],
         }
@@ -146,7 +146,7 @@ impl LaneProjector {
         let rows = &self.residuals.rows[level];
         lower.iter_mut().zip(rows).for_each(|(right, r)| *right = -*r);
         workspace.matrix.solve(&mut self.correction);
-        let open = Lanes::new(open.map(|open| if open { 1.0 } else { 0.0 }));
+        let open = Lanes::new(open.each(|open| if open { 1.0 } else { 0.0 }));
         for (x, dx) in x.iter_mut().zip(&self.correction) {
             *x = Lanes::select(open, *x + *dx, *x);
         }

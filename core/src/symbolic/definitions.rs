@@ -4,7 +4,7 @@ use super::arena::{Arena, Id, Node, Pair, Rate};
 use super::function::Function;
 use super::name::{Axis, NameKind};
 use super::style::Form;
-use crate::math::each;
+use crate::math::{each, ShortArray};
 
 impl Arena {
     /// Appends the named parts of an expression to `order`, each after the parts in its definition.
@@ -49,7 +49,7 @@ impl Arena {
                 Axis::X => ([x, cos], form.minus(), [y, sin]),
                 Axis::Y => ([x, sin], "+", [y, cos]),
             };
-            let [first, second] = [first, second].map(|[component, turn]| {
+            let [first, second] = [first, second].each(|[component, turn]| {
                 let product = self.product(1.0, vec![(component, 1.0), (turn, 1.0)]);
                 self.write(product, form)
             });

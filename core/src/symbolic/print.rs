@@ -6,7 +6,7 @@ use super::function::Function;
 use super::name::{Axis, Name};
 use super::number::{digits, fraction};
 use super::style::Form;
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 
 /// The precedence of the outermost operation of a text.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -68,8 +68,8 @@ impl Arena {
             self.terms(condition).into_iter().partition(|(_, c)| *c > 0.0);
         let less = less.into_iter().map(|(id, c)| (id, -c)).list();
         let sides = [self.sum(more), self.sum(less)];
-        let [left, right] = sides.map(|side| self.write(side, form));
-        let [a, b] = [a, b].map(|value| self.write(value, form));
+        let [left, right] = sides.each(|side| self.write(side, form));
+        let [a, b] = [a, b].each(|value| self.write(value, form));
         match form {
             Form::Latex => format!(
                 "\\begin{{cases}} {a} & {left} > {right} \\\\ {b} & \\text{{else}} \\end{{cases}}"

@@ -6,7 +6,7 @@ use super::placement::{Dyad, DyadGap};
 use super::placer::{direction, Placer, ON_LINE};
 use super::slider_placement::{Rail, Slide};
 use super::targets::nearest_turn;
-use crate::math::{each, Listed, Local, Pose, Vec2};
+use crate::math::{each, Listed, Local, Pose, ShortArray, Vec2};
 
 impl Placer<'_> {
     /// Closes a dyad of body `b` and a neighbour, if both have a pin on placed bodies.
@@ -33,12 +33,12 @@ impl Placer<'_> {
     fn close_dyad(&mut self, bodies: [usize; 2], joint: Leg, carried: [(Leg, Vec2); 2]) {
         let at_joint = [joint.own, joint.at_other];
         let arms = each([0, 1], |k| at_joint[k] - carried[k].0.own);
-        let [p1, p2] = carried.map(|(_, at)| at);
+        let [p1, p2] = carried.each(|(_, at)| at);
         // a body may turn about three pins at one position
         if arms.iter().any(|arm| arm.norm() == 0.0) {
             self.result.assume();
         }
-        let pin = self.pin_between(carried.map(|(leg, _)| leg.other));
+        let pin = self.pin_between(carried.each(|(leg, _)| leg.other));
         let opposite =
             pin.and_then(|pin| Some(self.poses[pin.other].as_ref()?.point(pin.at_other)));
         let (closures, missing) = match close(p1, arms[0].norm(), p2, arms[1].norm()) {
@@ -63,7 +63,7 @@ impl Placer<'_> {
         self.result.dyads.push(Dyad {
             bodies,
             joint: joint.constraint,
-            anchors: carried.map(|(leg, _)| leg.constraint),
+            anchors: carried.each(|(leg, _)| leg.constraint),
             has_other: closures.len() == 2,
             slides: false,
             opposite: pin.map(|pin| pin.constraint),
@@ -145,7 +145,7 @@ impl Placer<'_> {
         let place = (0..2).find_map(|c| Some((off(closures[0], c)?, off(closures[1], c)?)));
         match place {
             Some((a, b)) if a != b => usize::from(b < a),
-            _ => self.decide(bodies, &closures.map(|poses| poses.map(|pose| pose.angle))),
+            _ => self.decide(bodies, &closures.each(|poses| poses.each(|pose| pose.angle))),
         }
     }
 

@@ -13,7 +13,7 @@ use crate::elements::{Attachment, BodyId, Fixes, Group, QuantityKind};
 use crate::equations::kinematics::Motions;
 use crate::equations::{at, constraints};
 use crate::expression::TABLE_ENDS;
-use crate::math::{each, Listed};
+use crate::math::{each, Listed, ShortArray};
 use crate::model::{listed, shown, ConstraintItem, Model, MOST_REPORTED};
 use std::collections::VecDeque;
 use std::fmt;
@@ -140,7 +140,7 @@ pub(super) fn off_the_curve((name, message): (String, String)) -> Failure {
 
 fn dyad_open(model: &Model, request: &Request, gap: &DyadGap) -> Failure {
     let joint = shown(&model.constraints[gap.joint].name);
-    let [a, b] = gap.bodies.map(|k| model.bodies[k].name.as_str());
+    let [a, b] = gap.bodies.each(|k| model.bodies[k].name.as_str());
     let missing = gap.missing.abs();
     let length = length(missing);
     let (fault, hint) = if gap.missing > 0.0 {

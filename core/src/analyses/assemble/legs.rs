@@ -1,7 +1,7 @@
 //! The pins of a mechanism, described from each of their bodies.
 
 use crate::elements::Fixes;
-use crate::math::{each, Local};
+use crate::math::{each, Local, ShortArray};
 use crate::model::Model;
 
 /// Two coincident points, described from one of their bodies.
@@ -28,7 +28,7 @@ pub(super) fn legs(model: &Model) -> Vec<Vec<Leg>> {
         let at = each([0, 1], |body| item.element.attachment(body));
         let rigid = fixes.contains(&Fixes::Direction);
         let ends = each([0, 1], |end| item.bodies[end].0);
-        let places = ends.map(|body| legs[body].len());
+        let places = ends.each(|body| legs[body].len());
         for (own, other) in [(0, 1), (1, 0)] {
             legs[ends[own]].push(Leg {
                 constraint,

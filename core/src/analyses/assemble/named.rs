@@ -3,7 +3,7 @@
 use super::target::{CoordinateTarget, QuantityTarget, Target};
 use crate::elements::{BodyId, Coordinate, Followed, Measured, QuantityKind};
 use crate::expression::Tape;
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::{
     did_you_mean, quantity_of, Functions, Model, Offered, Problem, ANY_UNIT, MOST_REPORTED,
 };
@@ -226,7 +226,7 @@ fn of_body(
     }
     let found = Coordinate::named(coordinate);
     if found.is_none() {
-        let known = Coordinate::ALL.map(Coordinate::name);
+        let known = Coordinate::ALL.each(Coordinate::name);
         let hint = did_you_mean(coordinate, &known, "coordinates and rates");
         problems.push(fault(format!("'{coordinate}' is not a coordinate of a body"), hint));
     }

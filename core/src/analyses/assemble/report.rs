@@ -5,7 +5,7 @@ use super::placer::ON_LINE;
 use super::unset::Unset;
 use crate::analyses::Mobility;
 use crate::equations::kinematics::Motions;
-use crate::math::{each, Listed, Local, Motion, Rotation, Vec2};
+use crate::math::{each, Listed, Local, Motion, Rotation, ShortArray, Vec2};
 use crate::model::{listed, Doubt, Model, MOST_REPORTED};
 use crate::solve::newton::Record;
 
@@ -60,7 +60,7 @@ pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<DyadMode> {
                 (model, &motions),
             );
         }
-        let [p1, p2] = dyad.anchors.map(|k| point(model, &motions, k));
+        let [p1, p2] = dyad.anchors.each(|k| point(model, &motions, k));
         let joint = point(model, &motions, dyad.joint);
         let left = if dyad.slides {
             along(model, &motions, dyad.anchors[1]).dot(joint - p1) > 0.0
@@ -71,9 +71,9 @@ pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<DyadMode> {
         let pin = dyad.opposite.map(|k| side(point(model, &motions, k)));
         let pin = pin.filter(|side| side.abs() > ON_LINE * (p2 - p1).dot(p2 - p1));
         DyadMode {
-            bodies: dyad.bodies.map(body).to_vec(),
+            bodies: dyad.bodies.each(body).to_vec(),
             joint: name(dyad.joint),
-            anchors: dyad.anchors.map(name),
+            anchors: dyad.anchors.each(name),
             left,
             slides: dyad.slides,
             folded: pin.map(|pin| pin * side(joint) > 0.0),
@@ -90,18 +90,18 @@ fn on_rods(
     rods: [&str; 2],
     (model, motions): (&Model, &[Motion]),
 ) -> DyadMode {
-    let ends = dyad.anchors.map(|k| {
+    let ends = dyad.anchors.each(|k| {
         let item = &model.constraints[k];
         let own = usize::from(item.bodies[1].0 == dyad.bodies[0]);
         each([own, 1 - own], |end| {
             motions[item.bodies[end].0].pose.point(item.element.attachment(end).s)
         })
     });
-    let [first, second] = ends.map(|[own, far]| own - far);
+    let [first, second] = ends.each(|[own, far]| own - far);
     DyadMode {
         bodies: vec![body.clone()],
         joint: body,
-        anchors: rods.map(str::to_string),
+        anchors: rods.each(str::to_string),
         left: (first - second).cross(first) > 0.0,
         slides: false,
         folded: None,

@@ -1,6 +1,7 @@
 //! Targets for coordinates before assembly: `set` (held exactly) and `guess` (approached).
 
 use crate::elements::{BodyId, Constraint, Coordinate, CoordinateOf, Fixes};
+use crate::math::ShortArray;
 use crate::model::{ConstraintItem, Dependence, Model};
 
 /// Target values, by body (ground first) and coordinate x, y, angle.
@@ -28,7 +29,7 @@ impl Targets {
         let mut targets = Self { t, hard: none(), soft: none(), turn, every_solution: false };
         for (k, body) in model.bodies.iter().enumerate() {
             if let Some(drawn) = body.drawn {
-                targets.soft[k] = drawn.map(Some);
+                targets.soft[k] = drawn.each(Some);
             }
             if !body.turns {
                 targets.hard[k][2] = Some(0.0);
@@ -45,7 +46,7 @@ impl Targets {
     /// Sets soft targets to the positions `q`, shape (n_q).
     pub fn approach(&mut self, model: &Model, q: &[f64]) {
         for (soft, columns) in self.soft.iter_mut().zip(&model.layout.bodies).skip(1) {
-            *soft = columns.of(q).map(Some);
+            *soft = columns.of(q).each(Some);
         }
     }
 

@@ -1,7 +1,7 @@
 //! Closed loops of four pins, and whether their links turn fully (Grashof 1883).
 
 use crate::elements::{Fixes, Group};
-use crate::math::{Listed, Local};
+use crate::math::{indexed, Listed, Local, ShortArray};
 use crate::model::Model;
 use std::fmt;
 
@@ -141,7 +141,7 @@ fn hinges(model: &Model) -> Vec<Hinge> {
             continue;
         }
         let own =
-            [0, 1].map(|side| (item.bodies[side].0, item.element.attachment(side).s, vec![k]));
+            [0, 1].each(|side| (item.bodies[side].0, item.element.attachment(side).s, vec![k]));
         let touches = |hinge: &Hinge| {
             own.iter().any(|(body, at, _)| hinge.iter().any(|(b, s, _)| b == body && s == at))
         };
@@ -165,14 +165,14 @@ fn hinges(model: &Model) -> Vec<Hinge> {
 /// The loop of four bodies. None if two pins of a body coincide.
 fn four_bar(model: &Model, pins: &[Pin], bodies: [usize; 4], loop_: [usize; 4]) -> Option<FourBar> {
     let place = |k: usize, body: usize| pins[k].at[usize::from(pins[k].bodies[1] == body)];
-    let lengths: [f64; 4] = std::array::from_fn(|k| {
+    let lengths: [f64; 4] = indexed(|k| {
         let (one, two) = (loop_[(k + 3) % 4], loop_[k]);
         (place(one, bodies[k]) - place(two, bodies[k])).norm()
     });
     let class = class(&lengths, bodies[0] == 0);
     lengths.iter().all(|length| *length > 0.0).then(|| FourBar {
-        bodies: bodies.map(|body| model.bodies[body].name.clone()),
-        pins: loop_.map(|k| pins[k].name.clone()),
+        bodies: bodies.each(|body| model.bodies[body].name.clone()),
+        pins: loop_.each(|k| pins[k].name.clone()),
         lengths,
         class,
     })

@@ -7,7 +7,7 @@ use super::trajectory::States;
 use crate::equations::energy;
 use crate::equations::kinematics::Motions;
 use crate::integrate::all_finite;
-use crate::math::{each, Lanes, Listed, Real};
+use crate::math::{each, Lanes, Listed, Real, ShortArray};
 use crate::model::{Model, WORKS};
 use crate::solve::Breakdown;
 
@@ -60,7 +60,7 @@ fn mechanical(
         let wide = wide.model();
         let mut motions = Motions::new(&wide.layout);
         let [mut places, mut rates, mut states] =
-            [n, n, n_z].map(|width| vec![Lanes::zero(); width]);
+            [n, n, n_z].each(|width| vec![Lanes::zero(); width]);
         for t in t.chunks_exact(Lanes::WIDTH) {
             let rows = done * n..(done + Lanes::WIDTH) * n;
             Lanes::from_rows(&q[rows.clone()], &mut places);

@@ -10,7 +10,7 @@ use crate::analyses::conditions::Evaluator;
 use crate::analyses::so_far::SoFar;
 use crate::analyses::step_part::{self, StepPart};
 use crate::integrate::{crossings, Bounds, Crossing, Direction, Step, StepPath, TooFast, Watch};
-use crate::math::{Listed, Ordered, Real};
+use crate::math::{Listed, Ordered, Real, ShortArray};
 use crate::model::Model;
 use std::collections::HashMap;
 
@@ -106,7 +106,7 @@ impl Watch for InStep<'_, '_> {
         let part = own.as_ref().unwrap_or(&self.whole);
         let known = &mut self.known;
         let mut clearance = |force: usize| {
-            let key = (force, span.map(f64::to_bits));
+            let key = (force, span.each(f64::to_bits));
             *known.entry(key).or_insert_with(|| part.apart(force, None))
         };
         match self.list.watched[index].function {
@@ -306,7 +306,7 @@ impl<'a> EventList<'a> {
         let how = (step, function.needs_solution());
         let value =
             |state| self.evaluator.see(model, state, how, |seen| function.value(model, seen));
-        (states.map(value), h)
+        (states.each(value), h)
     }
 
     /// The rounding errors at the start of the phase of those functions of conditions that are zero there.

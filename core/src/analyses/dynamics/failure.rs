@@ -8,7 +8,7 @@ use crate::analyses::mobility::dependent;
 use crate::elements::Equation;
 use crate::expression::TABLE_ENDS;
 use crate::integrate::Cause;
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::{size, Model, Switch};
 use crate::solve::Breakdown;
 use std::fmt;
@@ -314,7 +314,7 @@ fn law_ends(LawFault { law, table, .. }: &LawFault) -> String {
 
 /// Two unequal numbers, with enough digits to show the difference.
 fn apart_in_print(a: f64, b: f64) -> [String; 2] {
-    let written = |digits: usize| [a, b].map(|x| format!("{x:.digits$e}"));
+    let written = |digits: usize| [a, b].each(|x| format!("{x:.digits$e}"));
     (1..17).map(written).find(|[a, b]| a != b).unwrap_or_else(|| written(1))
 }
 

@@ -7,7 +7,7 @@
 use super::failure::{Failure, Reason};
 use crate::elements::{contact, Clearance, Curve, CurveOn, Rim};
 use crate::equations::kinematics::Motions;
-use crate::math::{each, Listed, Local};
+use crate::math::{each, Listed, Local, ShortArray};
 use crate::model::{ForceItem, Model};
 
 /// Distance of a second foot, relative to the radius, up to which the circle touches it; and up to which a step may
@@ -69,12 +69,12 @@ fn wedged(model: &Model, t: f64, force: usize, (u, middle): ([f64; 2], f64)) -> 
     let item = &model.forces[force];
     let (rim, _) = circle(item).expect("it has a circle");
     let CurveOn { body, curve } = &rim.on;
-    let points = u.map(|u| curve.point(u));
-    let same = |of: &Curve| u.map(|u| of.point(u)) == points;
+    let points = u.each(|u| curve.point(u));
+    let same = |of: &Curve| u.each(|u| of.point(u)) == points;
     let body = &model.bodies[body.0];
     let own = body.curves.iter().find(|(_, of)| of.as_ref().is_some_and(same));
     let name = own.map_or(String::new(), |(name, _)| format!(" {}.{name}", body.name));
-    let [one, other] = u.map(|u| contact::place(curve, u));
+    let [one, other] = u.each(|u| contact::place(curve, u));
     let message = format!(
         "the circle of {} touches the curve{name} at two feet at t = {t:.6} s, {one} and {other}, but a contact has one \
          foot; between them, the curve is farthest at u = {middle:.6}",

@@ -8,7 +8,7 @@ use super::wide::Wide;
 use crate::equations::augmented::NearSingular;
 use crate::equations::Workspace;
 use crate::integrate::Step;
-use crate::math::{Lanes, Real};
+use crate::math::{each, Lanes, Real};
 
 /// States of a grid, collected until there is one for each lane.
 pub(super) struct LaneBatch<'a> {
@@ -110,6 +110,6 @@ impl<'a> LaneBatch<'a> {
 pub(super) fn are_finite<const N: usize>(parts: [&[Lanes]; N]) -> bool {
     // 0 x is zero for finite x and NaN otherwise; the sums are independent of each other
     let nothing = |sum: Lanes, x: &Lanes| sum.plus_product(Lanes::zero(), *x);
-    let sums = parts.map(|part| part.iter().fold(Lanes::zero(), nothing));
+    let sums = each(parts, |part| part.iter().fold(Lanes::zero(), nothing));
     sums.into_iter().fold(Lanes::zero(), |all, sum| all + sum).is_finite()
 }

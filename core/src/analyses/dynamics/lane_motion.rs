@@ -3,7 +3,7 @@
 use super::motion_ode::{rates, MotionOde};
 use crate::equations::{Gains, Workspace};
 use crate::integrate::{LaneOde, Mask};
-use crate::math::{Lanes, Listed};
+use crate::math::{Lanes, Listed, ShortArray};
 use crate::model::Model;
 use crate::stabilize::LaneProjector;
 
@@ -31,8 +31,8 @@ impl LaneMotion {
         if !lanes.iter().all(alike) {
             return None;
         }
-        let models = lanes.map(|one| one.model);
-        let parameter = |k| Lanes::new(models.map(|model| model.parameters[k]));
+        let models = lanes.each(|one| one.model);
+        let parameter = |k| Lanes::new(models.each(|model| model.parameters[k]));
         let parameters: Vec<Lanes> = (0..first.model.parameters.len()).map(parameter).list();
         let model = Box::new(Model::new(&first.model.blueprint, &parameters));
         let mut workspace = Workspace::like(&model, &first.workspace);

@@ -20,7 +20,7 @@ use crate::analyses::State;
 use crate::equations::energy;
 use crate::equations::kinematics::Motions;
 use crate::integrate::{Cause, Flow, TooFast};
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::Model;
 use crate::solve::Breakdown;
 use serde::{Deserialize, Serialize};
@@ -64,7 +64,7 @@ impl Progress {
 
     /// The present state.
     pub fn state(&self, model: &Model) -> State {
-        let [q, v, z, _] = model.layout.split(&self.y).map(<[f64]>::to_vec);
+        let [q, v, z, _] = model.layout.split(&self.y).each(<[f64]>::to_vec);
         State { t: self.t, q, v, z }
     }
 

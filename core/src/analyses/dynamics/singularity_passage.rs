@@ -15,7 +15,7 @@ use crate::analyses::mobility;
 use crate::equations::augmented::NearSingular;
 use crate::equations::forces::Acting;
 use crate::equations::{constraints, forces, mass, Gains, Powers, Workspace};
-use crate::math::each;
+use crate::math::{each, ShortArray};
 use crate::model::{size, Model};
 use crate::solve::Breakdown;
 
@@ -246,7 +246,7 @@ impl SingularityPassage {
     /// Whether Φ_q a = γ is violated.
     fn misses_gamma(&mut self, model: &Model, work: &Workspace, t: f64) -> bool {
         self.residual.resize(model.layout.n_rows, 0.0);
-        let [mut phi, mut rate, mut gamma] = [(); 3].map(|()| vec![0.0; model.layout.n_rows]);
+        let [mut phi, mut rate, mut gamma] = [(); 3].each(|()| vec![0.0; model.layout.n_rows]);
         constraints::velocity_terms(model, &work.motions, t, &mut phi, &mut rate, &mut gamma);
         constraints::times_all(model, work.matrix.jacobian(), work.a(), &mut self.residual);
         let lengths = work.a().iter().zip(model.layout.lengths()).filter(|(_, length)| *length);

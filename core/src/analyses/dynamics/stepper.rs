@@ -12,6 +12,7 @@ use super::start_check::StartCheck;
 use super::switch_schedule::Schedule;
 use crate::analyses::State;
 use crate::integrate::{Direction, Step};
+use crate::math::ShortArray;
 use crate::model::Model;
 
 /// Advances a model by one accepted step at a time, by any method.
@@ -139,7 +140,7 @@ impl<'a> Stepper<'a> {
     }
 
     fn to_state(&self, t: f64, y: &[f64]) -> State {
-        let [q, v, z, _] = self.model.layout.split(y).map(<[f64]>::to_vec);
+        let [q, v, z, _] = self.model.layout.split(y).each(<[f64]>::to_vec);
         State { t, q, v, z }
     }
 }

@@ -17,7 +17,7 @@
 
 use crate::equations::{Gains, Workspace};
 use crate::integrate::Step;
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::{column_scales, Model};
 
 /// Length of the stability region of DOP853 along the negative real axis.
@@ -181,7 +181,7 @@ impl<'a> StiffnessDetector<'a> {
                     let parts = y.iter().zip(x).zip(scales);
                     parts.map(|((y, x), scale)| y + epsilon * x * scale).list()
                 };
-                let [q, v] = [(q, of_q), (v, of_v)].map(|(y, x)| moved(y, x, columns));
+                let [q, v] = [(q, of_q), (v, of_v)].each(|(y, x)| moved(y, x, columns));
                 let z = moved(z, of_z, &scales[2 * n..]);
                 let [near_a, near_dz] = self.respond(t, [&q, &v, &z])?;
                 let images = near_a.iter().zip(&a).chain(near_dz.iter().zip(&dz));

@@ -4,7 +4,7 @@ use super::options::Options;
 use crate::analyses::dynamics::{friction_modes, States};
 use crate::analyses::measures::Measure;
 use crate::analyses::record::{ErrorClass, NumberList, Outcome, Record, Subject};
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::Value as Entry;
 use serde_json::Value;
 use std::sync::Arc;
@@ -56,7 +56,7 @@ pub(super) fn at_rest(
         let own =
             over.get(k).map(|changes| model.with_values(changes).map(Arc::new)).transpose()?;
         let own = own.as_ref().unwrap_or(&model);
-        let [q, z, mut lam] = ["q", "z", "lam"].map(|part| numbers(&point[part]));
+        let [q, z, mut lam] = ["q", "z", "lam"].each(|part| numbers(&point[part]));
         let rest = vec![0.0; q.len()];
         let modes = friction_modes(own, [&[t], &q, &rest, &z]).unwrap_or_default();
         let decided = modes.first().filter(|modes| !modes.is_empty());

@@ -11,7 +11,7 @@ use crate::analyses::linearization::coordinate;
 use crate::analyses::State;
 use crate::elements::BodyId;
 use crate::equations::kinematics::Motions;
-use crate::math::{Listed, Local};
+use crate::math::{Listed, Local, ShortArray};
 use crate::model::Model;
 use crate::solve::{solve_dense, Eigen};
 
@@ -53,7 +53,7 @@ pub fn compliance(
     let size = statics.columns.iter().fold(0.0, |most: f64, x| most.max(*x));
     let exact = |x: f64| if x.abs() > ROUNDING * size { x } else { 0.0 };
     let by_basis: Vec<[f64; 2]> =
-        local.basis.basis.iter().map(|basis| moved(basis).map(exact)).list();
+        local.basis.basis.iter().map(|basis| moved(basis).each(exact)).list();
     let limit = zero(&local.stiffness, place.scale);
     let eigen = Eigen::of(&local.stiffness, local.gradient.len());
     for (value, vector) in eigen.values.iter().zip(&eigen.vectors) {

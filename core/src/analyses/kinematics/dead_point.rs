@@ -5,7 +5,7 @@ use crate::analyses::assemble::trimmed;
 use crate::elements::{At, Attachment, BodyId, Coordinate, Fixes, Followed, Group, QuantityKind};
 use crate::equations::held;
 use crate::equations::kinematics::Motions;
-use crate::math::{Listed, Local, Rotation, Vec2};
+use crate::math::{Listed, Local, Rotation, ShortArray, Vec2};
 use crate::model::{column_scales, ConstraintItem, Dependence, Model};
 use std::fmt;
 
@@ -139,7 +139,7 @@ fn value(model: &Model, item: &ConstraintItem, motions: &Motions, t: f64) -> f64
     };
     match element.drives() {
         Some(of) => {
-            let [i, j] = of.bodies().map(|body| motions[body.0].pose);
+            let [i, j] = of.bodies().each(|body| motions[body.0].pose);
             of.value(&i, &j)
         }
         None => {
@@ -204,7 +204,7 @@ impl LockedDriver<'_> {
         self.pins().filter(|(k, _)| self.moves(*k, 0)).find_map(|(k, [i, j])| {
             let (a, b) = (self.towards_rest(i, (k, 0))?, self.towards_rest(j, (k, 1))?);
             let sine = a.cross(b).abs() / (a.norm() * b.norm());
-            (sine < IN_LINE).then(|| [i, j].map(|body| self.model.bodies[body.0].name.clone()))
+            (sine < IN_LINE).then(|| [i, j].each(|body| self.model.bodies[body.0].name.clone()))
         })
     }
 

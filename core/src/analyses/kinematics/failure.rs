@@ -5,7 +5,7 @@ use super::motion::Motion;
 use crate::analyses::mobility::Mobility;
 use crate::elements::{BodyId, Group};
 use crate::equations::kinematics::Motions;
-use crate::math::{Listed, Vec2};
+use crate::math::{Listed, ShortArray, Vec2};
 use crate::model::Model;
 use std::fmt;
 
@@ -138,7 +138,7 @@ fn in_line(model: &Model, q: &[f64]) -> Option<[String; 2]> {
                 .any(|item| item.group == Group::Drivers && item.bodies.contains(body))
         };
         let line = sine < IN_LINE && !driven(i) && !driven(j);
-        line.then(|| [i, j].map(|body| model.bodies[body.0].name.clone()))
+        line.then(|| [i, j].each(|body| model.bodies[body.0].name.clone()))
     })
 }
 

@@ -5,7 +5,7 @@
 
 use crate::analyses::{readings, State};
 use crate::elements::{self, Group};
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::{Definition, Entry, Model, Problem, Value};
 
 /// Fields of joints and drivers that take laws of time.
@@ -154,7 +154,7 @@ fn drive(definition: &mut Definition, of: &DrivenQuantity, law: Value) {
     let fields = |kind: String| {
         let coordinate = Value::Text(quantity.clone());
         [("type", Value::Text(kind)), ("coordinate", coordinate), ("value", law)]
-            .map(|(key, value)| (key.to_string(), value))
+            .each(|(key, value)| (key.to_string(), value))
             .to_vec()
     };
     let own = definition.drivers.iter_mut().find(|entry| Some(&entry.name) == driver.as_ref());

@@ -1,7 +1,7 @@
 //! Polynomials between two points of a motion.
 
 use super::solution::Point;
-use crate::math::{each, Listed};
+use crate::math::{each, Listed, ShortArray};
 
 /// Their degree.
 pub(super) const DEGREE: usize = 5;
@@ -44,7 +44,7 @@ impl<'p> Quintic<'p> {
 
     /// Coefficients of the second derivative of component `k`.
     fn acceleration(&self, k: usize) -> [f64; DEGREE] {
-        let [_, c2, c3, c4, c5] = self.rate(k).map(|c| c / self.h);
+        let [_, c2, c3, c4, c5] = self.rate(k).each(|c| c / self.h);
         [2.0 * c2, 3.0 * c3, 4.0 * c4, 5.0 * c5, 0.0]
     }
 

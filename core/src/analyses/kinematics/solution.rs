@@ -3,7 +3,7 @@
 use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::{column_scales, row_scales, Model};
 use crate::solve::sign_of_determinant;
 
@@ -166,7 +166,7 @@ impl<'a> Solver<'a> {
     fn evaluate(&mut self, t: f64, q: &[f64]) {
         let Self { model, matrix, motions, terms, rest, .. } = self;
         motions.place(&model.layout, q, rest);
-        let terms = terms.each_mut().map(|term| &mut term[..]);
+        let terms = terms.each_mut().each(|term| &mut term[..]);
         constraints::terms_and_jacobian(model, motions, t, terms, matrix.jacobian_mut());
     }
 

@@ -11,6 +11,7 @@ use crate::equations::augmented::NearSingular;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::{energy, mass, reactive, Gains, Powers, Workspace};
+use crate::math::{indexed, ShortArray};
 use crate::model::{Model, WORKS};
 
 /// Interior nodes and weights of Lobatto's rule with 5 points on [0, 1], which is exact for polynomials of degree 7.
@@ -132,11 +133,11 @@ impl<'a> Works<'a> {
         dense.y.extend([&from.q[..], self.rates(from), &self.z, &self.total].concat());
         let quintic = Quintic::new(from, to);
         for k in 0..from.q.len() {
-            dense.c.extend(quintic.position(k).map(|c| c / h));
+            dense.c.extend(quintic.position(k).each(|c| c / h));
         }
         for k in 0..from.q.len() {
             let moves = if self.rest.is_some() { 0.0 } else { 1.0 };
-            dense.c.extend(quintic.rate(k).map(|c| moves * c / h));
+            dense.c.extend(quintic.rate(k).each(|c| moves * c / h));
         }
         dense.c.extend(std::iter::repeat_n(0.0, DEGREE * self.z.len()));
         for (k, work) in works.iter().enumerate() {
@@ -207,25 +208,24 @@ impl<'a> Works<'a> {
         depth: usize,
     ) -> Three {
         let middle = 0.5 * (a + b);
-        let inside = NODES.map(|x| self.powers(&step.at(a + x * (b - a))));
+        let inside = NODES.each(|x| self.powers(&step.at(a + x * (b - a))));
         let h = (b - a) * step.h;
         let whole = lobatto(h, ends, inside);
         let halves = [[ends[0], inside[1]], [inside[1], ends[1]]];
         let parts = [[a, middle], [middle, b]];
-        let fine: [Three; 2] = std::array::from_fn(|k| {
+        let fine: [Three; 2] = indexed(|k| {
             let [from, to] = parts[k];
-            let inside = NODES.map(|x| self.powers(&step.at(from + x * (to - from))));
+            let inside = NODES.each(|x| self.powers(&step.at(from + x * (to - from))));
             lobatto(0.5 * h, halves[k], inside)
         });
-        let sum: Three = std::array::from_fn(|k| fine[0][k] + fine[1][k]);
+        let sum: Three = indexed(|k| fine[0][k] + fine[1][k]);
         let size = sum.iter().fold(self.scale, |most, w| most.max(w.abs()));
         let error = (0..WORKS).fold(0.0, |most: f64, k| most.max((sum[k] - whole[k]).abs()));
         if depth == 0 || error <= TOLERANCE * size {
             return sum;
         }
-        let both: [Three; 2] =
-            std::array::from_fn(|k| self.over(step, parts[k], halves[k], depth - 1));
-        std::array::from_fn(|k| both[0][k] + both[1][k])
+        let both: [Three; 2] = indexed(|k| self.over(step, parts[k], halves[k], depth - 1));
+        indexed(|k| both[0][k] + both[1][k])
     }
 }
 
@@ -235,5 +235,5 @@ fn lobatto(h: f64, ends: [Three; 2], inside: [Three; 3]) -> Three {
     let rule = |k: usize| {
         [first[k], a[k], b[k], c[k], last[k]].iter().zip(WEIGHTS).map(|(p, w)| p * w).sum::<f64>()
     };
-    std::array::from_fn(|k| h * rule(k))
+    indexed(|k| h * rule(k))
 }

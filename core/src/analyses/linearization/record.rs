@@ -10,7 +10,7 @@ use crate::analyses::record::{
 };
 use crate::analyses::{dynamics::friction_modes, State};
 use crate::elements::Mode;
-use crate::math::{each, Complex, Listed};
+use crate::math::{each, Complex, Listed, ShortArray};
 use crate::model::{ForceMode, Model};
 use serde_json::json;
 use std::f64::consts::TAU;
@@ -69,7 +69,7 @@ impl Analysis for Options {
         findings["moves"] = json!(moves);
         findings["is_equilibrium"] = json!(!moves && !accelerates);
         findings["stable"] = json!(modes.iter().all(|s| s.re < 0.0));
-        let [inputs, outputs] = [&self.inputs, &self.outputs].map(Vec::len);
+        let [inputs, outputs] = [&self.inputs, &self.outputs].each(Vec::len);
         let [rates, acceleration] = motion;
         let of_modes = |read: fn(Complex) -> f64| modes.iter().map(|s| read(*s)).list();
         let count = modes.len();

@@ -11,7 +11,7 @@ use crate::elements::derive::ByThree;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, mass, reactions, Compiled, Powers};
-use crate::math::{Lift, Listed, Real};
+use crate::math::{Lift, Listed, Real, ShortArray};
 use crate::model::Model;
 
 /// A number with its derivative along the direction, the first slope. The others are zero: the scalar is that of the
@@ -33,7 +33,7 @@ impl StatePoint<'_> {
     pub fn seeded(self, along: StatePoint<'_>) -> [Vec<D>; 5] {
         let Self { q, v, z, a, lam } = self;
         let pairs = [(q, along.q), (v, along.v), (z, along.z), (a, along.a), (lam, along.lam)];
-        pairs.map(|(point, along)| seeded(point, along))
+        pairs.each(|(point, along)| seeded(point, along))
     }
 }
 
@@ -98,7 +98,7 @@ impl<'a> Variation<'a> {
     /// Whether the constraints at the state depend on the variable of [`by_parameters`](Self::by_parameters).
     pub fn moves_constraints(&self) -> bool {
         let Self { model, at, .. } = self;
-        let [q, v] = [at.q, at.v].map(|x| seeded(x, &[]));
+        let [q, v] = [at.q, at.v].each(|x| seeded(x, &[]));
         let motions = Motions::at(&model.layout, &q, &v);
         let t = D::lift(self.t);
         let [phi, rates, gamma] = constraints::terms_at(model, &motions, t);

@@ -2,7 +2,7 @@
 
 use super::reader::Reader;
 use crate::elements::{Default, Shape};
-use crate::math::each;
+use crate::math::{each, ShortArray};
 use crate::model::Value as Written;
 
 /// A kind of option.
@@ -248,7 +248,7 @@ kind! {
         let one = |(k, range): (usize, &Written)| match range {
             Written::List(ends) if ends.len() == 2 => {
                 let unit = reader.unit_of(names.get(k));
-                let [first, last] = [&ends[0], &ends[1]].map(|end| reader.value(key, end, &unit));
+                let [first, last] = [&ends[0], &ends[1]].each(|end| reader.value(key, end, &unit));
                 Some([first?, last?])
             }
             _ => reader.refuse(key, "must be ranges, [[first, last], [first, last]]"),

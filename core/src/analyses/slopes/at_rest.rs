@@ -10,7 +10,7 @@ use crate::equations::kinematics::Motions;
 use crate::equations::sensitivity::{constants, variables_from, Sensitivity, Slope, ABREAST};
 use crate::equations::{dense, reactive};
 use crate::expression::{Symbol, Tape};
-use crate::math::{indexed, Complex, Field, Listed, Real};
+use crate::math::{indexed, Complex, Field, Listed, Real, ShortArray};
 use crate::model::{column_scales, row_scales, Blueprint, ConstraintItem, Model};
 use crate::solve::null_space;
 use std::sync::Arc;
@@ -145,7 +145,7 @@ impl AtRest {
         start: &StartSlopes,
     ) -> Result<[f64; ABREAST], String> {
         let found = StaticEquations::new(of, names, start)?;
-        let fixed = start.each_ref().map(|x| x.iter().map(|x| Slope::constant(x.value)).list());
+        let fixed = start.each_ref().each(|x| x.iter().map(|x| Slope::constant(x.value)).list());
         let by_value = StaticEquations::by(of, std::slice::from_ref(over), &fixed)?.residual;
         let (n, columns, rows) =
             (of.state.q.len(), column_scales(&found.base), row_scales(&found.base));

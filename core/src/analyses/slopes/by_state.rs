@@ -4,7 +4,7 @@ use crate::analyses::measures::Measure;
 use crate::analyses::signals::Seen;
 use crate::equations::kinematics::Motions;
 use crate::equations::sensitivity::{variables_from, Slope, ABREAST};
-use crate::math::{Listed, Real};
+use crate::math::{Listed, Real, ShortArray};
 use crate::model::Model;
 
 /// The derivatives of measures by t, q, v, z and the parameters at x = (t, q, v, z): a row for each measure.
@@ -33,7 +33,7 @@ fn at(model: &Model<Slope>, measures: &[Measure], x: &[Slope]) -> Vec<Slope> {
     let (v, z) = rest.split_at(n);
     let (motions, unknown) = (
         Motions::at(&model.layout, q, v),
-        [n, model.layout.n_rows].map(|count| vec![Slope::constant(f64::NAN); count]),
+        [n, model.layout.n_rows].each(|count| vec![Slope::constant(f64::NAN); count]),
     );
     let (state, solved) = ([q, v, z], [&unknown[0][..], &unknown[1]]);
     let seen = Seen { t, state, works: &[], motions: &motions, solved, so_far: None };

@@ -11,7 +11,7 @@ use crate::analyses::record::{parts, Record};
 use crate::analyses::sweep::Wanted;
 use crate::analyses::State;
 use crate::equations::sensitivity::constants;
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::{Model, Value};
 use std::sync::Arc;
 
@@ -71,7 +71,7 @@ impl ReadyVariant<'_> {
     fn rests<'b>(&'b self, options: &'b Options, record: &'b Record) -> Result<Rests<'b>, String> {
         let (names, start) = (self.names().into_iter(), &self.ready.start);
         let State { q, v, z, .. } = &start.state;
-        let fixed = || [q, v, z].map(|x| constants(x));
+        let fixed = || [q, v, z].each(|x| constants(x));
         let blocks = match options.hold.is_empty() && !self.ready.after {
             true => names.map(|names| (names, fixed())).list(),
             false => names.zip(self.starts()?.in_time()?).list(),

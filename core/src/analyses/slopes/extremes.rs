@@ -3,6 +3,7 @@
 use super::reader::SlopeRow;
 use super::statistics::{Found, RunTimes, SlopeRows};
 use crate::analyses::statistics::Extreme;
+use crate::math::ShortArray;
 
 /// Part of the span of a measure by which it may change within a step at the time of its extreme value.
 const FLAT: f64 = 1e-4;
@@ -50,7 +51,7 @@ impl Stationary {
         if change > FLAT * rows.span[k] {
             return Err(format!("the value has a kink at t = {t:.6} s, which may move"));
         }
-        let [a, b, c, e] = beside.map(|t| rows.at(t));
+        let [a, b, c, e] = beside.each(|t| rows.at(t));
         let [a, b, c, e] = [a?, b?, c?, e?];
         let sample =
             |of: &dyn Fn(&SlopeRow) -> f64| Quartic::through([of(a), of(b), of(row), of(c), of(e)]);

@@ -3,7 +3,7 @@
 use super::statistics::{Found, SlopePlan, SlopeRows};
 use crate::analyses::statistics::Integrals;
 use crate::analyses::sweep::{Series, Statistic};
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 
 impl SlopePlan {
     /// The plan of a statistic that follows from integrals.
@@ -48,7 +48,7 @@ impl SlopeRows {
             add(weight * f(*x)[1], &self.at(*t)?.slopes[k]);
         }
         for corner in &self.corners {
-            let [before, after] = [0, 1].map(|side| f(corner.sides[side].values[k][0])[0]);
+            let [before, after] = [0, 1].each(|side| f(corner.sides[side].values[k][0])[0]);
             add(before - after, &corner.late);
         }
         Ok(slopes.iter().map(|slope| factor * slope).list())

@@ -14,7 +14,7 @@ use crate::elements::Group;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::equations::Workspace;
 use crate::expression::Tape;
-use crate::math::{Complex, Field, Listed, Real};
+use crate::math::{Complex, Field, Listed, Real, ShortArray};
 use crate::model::{Dependence, Model};
 use crate::solve::null_space;
 use std::f64::consts::TAU;
@@ -261,11 +261,11 @@ impl ModeSlopes<'_> {
             return Err(MEET.to_string());
         }
         let [mass, damping, stiffness] =
-            ["mass", "damping", "stiffness"].map(|name| self.record.table(name));
+            ["mass", "damping", "stiffness"].each(|name| self.record.table(name));
         let unit = |k: usize| mass[k * f + k].sqrt();
         let entry = |i: usize, j: usize| {
             let [m, c, k] = [mass, damping, stiffness]
-                .map(|of| Complex::from_real(of[i * f + j] / (unit(i) * unit(j))));
+                .each(|of| Complex::from_real(of[i * f + j] / (unit(i) * unit(j))));
             (s * m + c) * s + k
         };
         let places = || (0..f * f).map(|k| (k / f, k % f));

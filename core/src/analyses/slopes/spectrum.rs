@@ -16,7 +16,7 @@ use crate::equations::kinematics::Motions;
 use crate::equations::mass;
 use crate::equations::second::{of_forces, Direction};
 use crate::equations::sensitivity::{constants, Sensitivity, Slope};
-use crate::math::{Complex, Field, Jet, Listed, Real};
+use crate::math::{Complex, Field, Jet, Listed, Real, ShortArray};
 use crate::model::{column_scales, Model};
 use std::sync::Arc;
 
@@ -196,10 +196,10 @@ impl Moved {
         let sizes = right.q.iter().zip(&scales).map(|(q, scale)| q.magnitude() / scale);
         let size = sizes.fold(0.0, f64::max);
         for (x, unit) in [(0, Complex::one()), (1, Complex::new(0.0, 1.0))] {
-            let x = [&right.q, &right.v, &right.a, &right.lam].map(|of| part(of, x));
+            let x = [&right.q, &right.v, &right.a, &right.lam].each(|of| part(of, x));
             let forces = self.forces(equations, [&x[0], &x[1], &x[2]], size);
             for (l, more) in [(0, unit), (1, unit * Complex::new(0.0, 1.0))] {
-                let l = [&left.mu, &left.nu, &left.kappa, &left.w].map(|of| part(of, l));
+                let l = [&left.mu, &left.nu, &left.kappa, &left.w].each(|of| part(of, l));
                 let rows = self.constraints(equations.t, &x, &l);
                 for (k, found) in found.iter_mut().enumerate() {
                     let change = rows.slope[k] + dot(&forces[k], &l[3]);
@@ -213,7 +213,7 @@ impl Moved {
     /// The second derivatives of M a - Q along a motion of a size, and along each variable.
     fn forces(&self, of: &ModeEquations<'_>, x: Direction<'_>, size: f64) -> Vec<Vec<f64>> {
         let ModeEquations { t, at, .. } = of;
-        let [q, v, a] = x.map(|x| x.iter().map(|x| x / size).list());
+        let [q, v, a] = x.each(|x| x.iter().map(|x| x / size).list());
         let at: Direction<'_> = [&at[0], &at[1], &at[2]];
         let of = |(model, y, own): &(Model<Jet>, [Vec<f64>; 3], f64)| {
             let y: Direction<'_> = [&y[0], &y[1], &y[2]];

@@ -3,7 +3,7 @@
 use super::reader::{Corner, Reader, SlopeRow};
 use crate::analyses::statistics::{Extreme, Integrals, BAND, RIVAL};
 use crate::analyses::sweep::{Series, Statistic};
-use crate::math::{Listed, Ordered};
+use crate::math::{Listed, Ordered, ShortArray};
 
 /// Distance of the times that give the second derivative at an extreme value, in steps of the run.
 const BESIDE: f64 = 1.0 / 32.0;
@@ -137,7 +137,7 @@ impl SlopePlan {
 
     /// The plan of the largest magnitude, from the largest and the least value.
     fn of_peak(most: (Extreme, Vec<f64>), least: (Extreme, Vec<f64>)) -> Self {
-        let [high, low] = [most.0, least.0].map(|one| one.value.abs());
+        let [high, low] = [most.0, least.0].each(|one| one.value.abs());
         let equal = (high - low).abs() <= RIVAL * high.max(low) && most.0.t != least.0.t;
         let larger = if high >= low { most } else { least };
         match equal {

@@ -6,7 +6,7 @@
 use crate::equations::kinematics::Motions;
 use crate::equations::sensitivity::{constants, Sensitivity, Slope, ABREAST};
 use crate::equations::{constraints, dense};
-use crate::math::{Complex, Field, Listed, Real};
+use crate::math::{Complex, Field, Listed, Real, ShortArray};
 use crate::model::{column_scales, row_scales, Model};
 use crate::solve::{null_space, solve_dense};
 
@@ -44,7 +44,7 @@ impl Turning {
             if left.pivots[0].min(right.pivots[0]) <= SEPARATE {
                 return Err("paths of the motion cross there, so that limits meet".to_string());
             }
-            let [y, path] = [&left, &right].map(|of| unit_vector(&of.vectors[0]));
+            let [y, path] = [&left, &right].each(|of| unit_vector(&of.vectors[0]));
             if step == 0 && path[n].abs() > TURNS {
                 return Ok(None);
             }
@@ -99,7 +99,7 @@ fn curvature(model: &Model, t: f64, q: &[f64], v: &[f64]) -> Vec<f64> {
         let [_, _, gamma] = constraints::terms_at(model, &Motions::at(&model.layout, q, &v), t);
         gamma
     };
-    let [forth, back, rest] = [1.0, -1.0, 0.0].map(gamma);
+    let [forth, back, rest] = [1.0, -1.0, 0.0].each(gamma);
     (0..rest.len()).map(|k| rest[k] - 0.5 * (forth[k] + back[k])).list()
 }
 

@@ -5,7 +5,7 @@
 //! maximum that a search finds there depends on how close to the position the search comes.
 
 use super::{largest, place_of_largest, Read};
-use crate::math::{Listed, Ordered};
+use crate::math::{Listed, Ordered, ShortArray};
 
 /// Local maxima above this fraction of the largest are refined together, up to a number of maxima.
 const SHARE: f64 = 0.9;
@@ -75,11 +75,11 @@ impl Maxima {
         read: Read<'_>,
     ) {
         let beside = |k: usize| [k.saturating_sub(1), (k + 1).min(t.len() - 1)];
-        let brackets: Vec<[f64; 2]> = group.iter().map(|k| beside(*k).map(|b| t[b])).list();
+        let brackets: Vec<[f64; 2]> = group.iter().map(|k| beside(*k).each(|b| t[b])).list();
         let refined = refine(brackets, read);
         let steep = |(k, best): (&usize, &Best)| {
             let here = sampled[*k];
-            let change = largest(beside(*k).map(|b| (sampled[b] - here).abs()));
+            let change = largest(beside(*k).each(|b| (sampled[b] - here).abs()));
             resolved && best.value - here > STEEP * change + ERROR * here.abs()
         };
         let is_steep: Vec<bool> = group.iter().zip(&refined).map(steep).list();

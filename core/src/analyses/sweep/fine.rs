@@ -4,7 +4,7 @@ use super::readings::{Missing, Readings};
 use crate::analyses::statistics::{
     changes, in_blocks, instants, Integrals, Maxima, SingularInstants, EXAMINED,
 };
-use crate::math::{Listed, Ordered};
+use crate::math::{Listed, Ordered, ShortArray};
 use std::cell::OnceCell;
 
 /// Number of instants that are read together, so that their states, accelerations and multipliers fit into the
@@ -118,7 +118,7 @@ impl Fine {
         some.read(readings, (&t, &wanted), between)?;
         let t: Vec<f64> = some.places.iter().map(|k| t[*k]).list();
         let mut columns = some.columns.into_iter();
-        let [sizes, regularity] = [(); 2].map(|()| columns.next().unwrap_or_default());
+        let [sizes, regularity] = [(); 2].each(|()| columns.next().unwrap_or_default());
         let mut values = vec![Vec::new(); readings.wanted.len()];
         wanted.iter().zip(columns).for_each(|(measure, of)| values[*measure] = of);
         let mut read = |t: &[f64]| readings.at(t, true, &[]).map(|rows| rows.regularity);

@@ -5,7 +5,7 @@ use crate::analyses::measures::Measure;
 use crate::analyses::statistics::row_norms;
 use crate::elements::Mode;
 use crate::integrate::Flow;
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::Model;
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -218,7 +218,7 @@ impl<'a> Readings<'a> {
         };
         let way = (last - first).signum() * step;
         let before = ((t - first) / way).floor();
-        let beside = [before, before + 1.0].map(|k| first + k * way);
+        let beside = [before, before + 1.0].each(|k| first + k * way);
         beside.into_iter().filter(|t| (first - t) * (last - t) < 0.0).list()
     }
 

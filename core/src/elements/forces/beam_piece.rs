@@ -16,7 +16,7 @@ use crate::elements::{
     element, BodyId, Force, Mark, Nature, Part, PointOn, ResultQuantity, SceneSymbol, Situation,
     Wrenches,
 };
-use crate::math::{each, indexed, Local, Pose, Real, Twist, Vec2, Wrench};
+use crate::math::{each, indexed, Local, Pose, Real, ShortArray, Twist, Vec2, Wrench};
 
 element! {
     /// Piece of a beam between four nodes.
@@ -285,7 +285,7 @@ impl Force for BeamPiece {
 
     fn symbols(e: &BeamPiece) -> Vec<SceneSymbol> {
         let node = |body| PointOn { body, s: Local::zero() };
-        let nodes = [e.i, e.second, e.third, e.j].map(node);
+        let nodes = [e.i, e.second, e.third, e.j].each(node);
         let lines = nodes.windows(2);
         lines.map(|ends| SceneSymbol::between_points(Mark::Beam, &ends[0], &ends[1])).collect()
     }

@@ -21,7 +21,7 @@ use crate::elements::{
     Wrenches,
 };
 use crate::expression::Tape;
-use crate::math::{Listed, Real, Vec2, Wrench};
+use crate::math::{Listed, Real, ShortArray, Vec2, Wrench};
 use std::f64::consts::PI;
 
 /// A belt that slips or whose strands are elastic.
@@ -89,7 +89,7 @@ impl<S: Real> LooseBelt<S> {
 
     /// The places of the centres on bodies i and j, from the origins of the bodies.
     fn centres(&self, at: &Situation<'_, S>) -> [Vec2<S>; 2] {
-        [0, 1].map(|body| {
+        [0, 1].each(|body| {
             let Attachment { s, .. } = self.joint.attachment(body);
             at.body(body).pose.global(s)
         })
@@ -211,7 +211,7 @@ impl Force for LooseBelt {
 
     fn requires(e: &LooseBelt, at: &At<'_, f64>) -> Option<Required<f64>> {
         let Strands { radii: [r_i, r_j], crossed, .. } = e.strands();
-        let [p_i, p_j] = [0, 1].map(|k| at.bodies[k].point(e.joint.attachment(k).s));
+        let [p_i, p_j] = [0, 1].each(|k| at.bodies[k].point(e.joint.attachment(k).s));
         let (what, beside) = match crossed {
             true => ("distance of the centres less the sum of the radii", r_i + r_j),
             false => {

@@ -13,7 +13,7 @@ use crate::elements::{
     Group, Kind, Measured, Nature, Part, ResultQuantity, SceneSymbol, Situation, Source, Wrenches,
 };
 use crate::expression::Tape;
-use crate::math::{Listed, Real, Vec2, Wrench};
+use crate::math::{Listed, Real, ShortArray, Vec2, Wrench};
 
 /// A joint with play.
 #[derive(Clone, Debug)]
@@ -131,7 +131,7 @@ impl Force for Play {
 
     fn clearances(e: &Play) -> Vec<Clearance<'_>> {
         let limit = |sign: f64| Clearance::Limit { limit: -sign * e.half(), sign };
-        [1.0, -1.0].map(limit).into()
+        [1.0, -1.0].each(limit).into()
     }
 
     fn followed<S>(e: &Play<S>) -> Option<&Followed<S>> {

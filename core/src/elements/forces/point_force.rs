@@ -9,7 +9,7 @@ use crate::elements::{
     element, At, BodyId, Force, Frame, Mark, Measured, Nature, Part, SceneSymbol, Situation,
     SymbolEnd, Wrenches,
 };
-use crate::math::{Local, Real, Vec2, Wrench};
+use crate::math::{Local, Real, ShortArray, Vec2, Wrench};
 
 element! {
     /// Force at a point of body j. The opposite force acts at the same place on body i, which is
@@ -62,7 +62,7 @@ impl Force for PointForce {
             return Vec::new();
         }
         // a varying component is drawn in its positive direction
-        let [x, y] = e.force.map(|x| if x.is_nan() { 1.0 } else { x });
+        let [x, y] = e.force.each(|x| if x.is_nan() { 1.0 } else { x });
         let axes = match e.frame {
             Frame::Global => BodyId::GROUND,
             Frame::I => e.i,

@@ -13,7 +13,7 @@ use crate::elements::beam_line::{in_stations, section, AT_GAUSS, NODES, STATIONS
 use crate::elements::{
     element, At, Attachment, BodyId, Equation, Joint, Linearized, Moving, ResultQuantity,
 };
-use crate::math::{each, indexed, Local, Pose, Real, Vec2};
+use crate::math::{each, indexed, Local, Pose, Real, ShortArray, Vec2};
 
 element! {
     /// Lock of a strain of a piece of a beam between four nodes.
@@ -81,7 +81,7 @@ impl Joint for BeamLock {
     }
 
     fn equations<S>(_: &BeamLock<S>) -> Vec<Equation> {
-        ["first", "second", "third"].map(Equation::length).into()
+        ["first", "second", "third"].each(Equation::length).into()
     }
 
     fn residual<S: Real>(e: &BeamLock<S>, at: &At<'_, S>, phi: &mut [S]) {

@@ -23,7 +23,7 @@ use crate::elements::{
     element, measure, At, Attachment, Backlash, BodyId, Equation, Fixes, Joint, Mark, Required,
     ResultQuantity, SceneSymbol,
 };
-use crate::math::{Listed, Real, Wrench};
+use crate::math::{Listed, Real, ShortArray, Wrench};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 element! {
@@ -135,7 +135,7 @@ impl Joint for Gear {
             true => Mark::ToothedRing,
             false => Mark::ToothedWheel,
         };
-        let wheels = SceneSymbol::wheels(radii.map(mark), radii, [&e.i, &e.j]);
+        let wheels = SceneSymbol::wheels(radii.each(mark), radii, [&e.i, &e.j]);
         wheels.into_iter().map(|wheel| SceneSymbol { module: e.module, ..wheel }).list()
     }
 
@@ -188,7 +188,7 @@ impl Joint for Gear {
             return Some(("pressure_angle", message));
         }
         let field = if e.radii.is_some() { "radii" } else { "module" };
-        let faults = radii_of(e).map(|radius| radius_fault(field, radius, false));
+        let faults = radii_of(e).each(|radius| radius_fault(field, radius, false));
         let equal = e.internal && sum(e).1 == 0.0;
         let same = (field, "internal wheels of equal radii have no arm; must differ".to_string());
         faults.into_iter().flatten().next().or(equal.then_some(same))

@@ -10,7 +10,7 @@ use crate::elements::{
     element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Measured,
     Moving, SceneSymbol, SymbolEnd,
 };
-use crate::math::{Local, Pose, Real, Rotation, Vec2};
+use crate::math::{Local, Pose, Real, Rotation, ShortArray, Vec2};
 
 element! {
     /// Translational joint: body j slides along a line of body i and does not rotate relative to
@@ -60,7 +60,7 @@ impl Joint for Translational {
     }
 
     fn symbols(e: &Translational) -> Vec<SceneSymbol> {
-        let [i, j] = [(&e.i, 0), (&e.j, 1)].map(|(on, k)| SymbolEnd::point(on).along(e.axes[k]));
+        let [i, j] = [(&e.i, 0), (&e.j, 1)].each(|(on, k)| SymbolEnd::point(on).along(e.axes[k]));
         vec![SceneSymbol::new(Mark::Slide, i, j)]
     }
 

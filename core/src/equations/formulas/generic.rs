@@ -8,7 +8,7 @@ use crate::elements::{
     Followed, Group, JointId, PointOn, QuantityKind, Source,
 };
 use crate::expression::Tape;
-use crate::math::{each, Listed, Local, Pose};
+use crate::math::{each, Listed, Local, Pose, ShortArray};
 use crate::symbolic::{record, upright, Form, Name, NameKind, Record, Symbolic};
 
 /// The equations of a type of joint or driver. None if the type does not exist. Bodies are named i, j, …, a point is
@@ -139,10 +139,10 @@ impl Source for SampleNames {
         Some(Tape::from(0.0))
     }
     fn pair(&mut self, _: &Field) -> Option<[Tape; 2]> {
-        Some([0.0, 0.0].map(Tape::from))
+        Some([0.0, 0.0].each(Tape::from))
     }
     fn triple(&mut self, _: &Field) -> Option<[Tape; 3]> {
-        Some([0.0, 0.0, 0.0].map(Tape::from))
+        Some([0.0, 0.0, 0.0].each(Tape::from))
     }
     fn law_pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
         self.pair(field)

@@ -2,7 +2,7 @@
 
 use crate::elements::{Coordinate, Curve};
 use crate::expression::is_identifier;
-use crate::math::{each, Listed, Local, Pose, Real};
+use crate::math::{each, indexed, Listed, Local, Pose, Real};
 use crate::symbolic::{upright, Axis, Name, NameKind, Record, Symbolic};
 
 /// Letters for the bodies of an element, and the same letters as Unicode subscripts.
@@ -142,7 +142,7 @@ pub(super) fn curve(record: &Record, label: Option<&str>, u: Symbolic) -> Curve<
         [record.along(named(0), u, first), first, second, third]
     };
     let (x, y) = (component(Axis::X), component(Axis::Y));
-    Curve::Near { at: u, terms: std::array::from_fn(|n| Local { x: x[n], y: y[n] }) }
+    Curve::Near { at: u, terms: indexed(|n| Local { x: x[n], y: y[n] }) }
 }
 
 /// A given function of time, with its derivatives.

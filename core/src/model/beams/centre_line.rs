@@ -6,7 +6,7 @@ use super::super::scope::Reach;
 use super::spline::{crosses, crossing, Curved};
 use crate::elements::beam_line::{section, AT_GAUSS, GAUSS, NODES, PLACES};
 use crate::expression::Tape;
-use crate::math::{each, indexed, Listed, Local, Pose};
+use crate::math::{each, Listed, Local, Pose, ShortArray};
 use std::f64::consts::PI;
 
 /// Points of a curved centre line at which crossings are searched, for each of its points.
@@ -73,10 +73,10 @@ impl CentreLine {
             points.push(reader.scope.pair(item, &path, "m", reader.problems)?);
         }
         if let [Value::List(a), Value::List(b)] = &items[..] {
-            let [ax, ay, bx, by] = [&a[0], &a[1], &b[0], &b[1]].map(term);
+            let [ax, ay, bx, by] = [&a[0], &a[1], &b[0], &b[1]].each(term);
             let length = format!("hypot({bx}-{ax},{by}-{ay})");
             let angle = format!("atan2({by}-{ay},{bx}-{ax})");
-            let drawn = [ax, ay, angle].map(|text| reader.compose(&text));
+            let drawn = [ax, ay, angle].each(|text| reader.compose(&text));
             return Some(Self { form: LineForm::Straight, length, drawn: Some(drawn) });
         }
         let numbers: Option<Vec<[f64; 2]>> =
@@ -101,7 +101,7 @@ impl CentreLine {
             reader.problems.push(crosses(&path, global));
             return None;
         }
-        let drawn = curved.first().map(Tape::from);
+        let drawn = curved.first().each(Tape::from);
         let length = format!("({:?})", curved.length());
         Some(Self { form: LineForm::Spline(curved), length, drawn: Some(drawn) })
     }
@@ -122,9 +122,9 @@ impl CentreLine {
             let reach = Reach::Parameters;
             reader.scope.formula(item, &path, unit, reach, reader.problems)?;
         }
-        let [x, y, radius, from, to] = indexed(|k| k).map(|k| term(&items[k]));
+        let [x, y, radius, from, to] = [0, 1, 2, 3, 4].each(|k: usize| term(&items[k]));
         let turned = format!("({to}-{from})");
-        let numbers = [&radius, &turned].map(|text| reader.value(text));
+        let numbers = [&radius, &turned].each(|text| reader.value(text));
         if numbers[0] <= 0.0 {
             reader.report("arc", &format!("the radius is {} m; must be > 0", numbers[0]));
             return None;
@@ -144,7 +144,7 @@ impl CentreLine {
             format!("{y}+{radius}*sin({from})"),
             format!("{from}+atan2({turned},0)"),
         ];
-        let drawn = drawn.map(|text| reader.compose(&text));
+        let drawn = drawn.each(|text| reader.compose(&text));
         Some(Self { form: LineForm::Arc(turned), length, drawn: Some(drawn) })
     }
 
@@ -159,14 +159,14 @@ impl CentreLine {
                 );
                 let x = format!("{radius}*sin{angle}");
                 let y = format!("{radius}*2*sin({angle}/2)^2");
-                [x, y, angle].map(|text| reader.compose(&text))
+                [x, y, angle].each(|text| reader.compose(&text))
             }
             LineForm::Spline(curved) => {
                 // the angle is continuous along the places before
                 let s = reader.value(s);
                 let steps = (64.0 * s / curved.length()).ceil().max(1.0) as usize;
                 let before = (1..=steps).map(|k| s * k as f64 / steps as f64).list();
-                curved.places(&before).last().map_or([0.0; 3], |place| *place).map(Tape::from)
+                curved.places(&before).last().map_or([0.0; 3], |place| *place).each(Tape::from)
             }
         }
     }
@@ -178,10 +178,10 @@ impl CentreLine {
         };
         let (from, to) = (reader.value(from), reader.value(to));
         let all = curved.places(&[from, to]);
-        let [first, last] = [all[0], all[1]].map(|[x, y, angle]| Pose::new(x, y, angle));
+        let [first, last] = [all[0], all[1]].each(|[x, y, angle]| Pose::new(x, y, angle));
         let at: Local = first.rotation.inverse(last.r - first.r);
         let turned = (last.angle - first.angle + PI).rem_euclid(2.0 * PI) - PI;
-        [at.x, at.y, turned].map(Tape::from)
+        [at.x, at.y, turned].each(Tape::from)
     }
 
     /// The strains of an element from `start` with the given length that are free of stress: those of the nodes on
@@ -189,7 +189,7 @@ impl CentreLine {
     pub fn strains(&self, reader: &mut Reader<'_>, start: &str, length: &str) -> Strains {
         let share = |xi: f64| 0.5 * (1.0 + xi);
         match &self.form {
-            LineForm::Straight => [[1.0; 3], [0.0; 3], [0.0; 3]].map(|all| all.map(Tape::from)),
+            LineForm::Straight => [[1.0; 3], [0.0; 3], [0.0; 3]].each(|all| all.each(Tape::from)),
             LineForm::Arc(turned) => {
                 // with δ the angle of the element: Σ 2 Nₖ′ (sin, -cos)(δ (σₖ - σ)) / δ
                 let delta = format!("({turned}*{length}/{})", self.length);
@@ -201,22 +201,22 @@ impl CentreLine {
                     };
                     format!("({})/{delta}", (0..NODES).map(one).list().join("+"))
                 };
-                let stretch = [0, 1, 2].map(|g| sum("sin", g));
-                let slide = [0, 1, 2].map(|g| format!("-{}", sum("cos", g)));
-                let curvature = [0, 1, 2].map(|_| format!("{turned}/{}", self.length));
-                [stretch, slide, curvature].map(|all| all.map(|text| reader.compose(&text)))
+                let stretch = [0, 1, 2].each(|g| sum("sin", g));
+                let slide = [0, 1, 2].each(|g| format!("-{}", sum("cos", g)));
+                let curvature = [0, 1, 2].each(|_| format!("{turned}/{}", self.length));
+                [stretch, slide, curvature].each(|all| all.each(|text| reader.compose(&text)))
             }
             LineForm::Spline(curved) => {
                 let (start, length) = (reader.value(start), reader.value(length));
-                let at = PLACES.map(|xi| start + length * share(xi));
+                let at = PLACES.each(|xi| start + length * share(xi));
                 let poses = curved.places(&at).into_iter().map(|[x, y, a]| Pose::new(x, y, a));
                 let poses: Vec<Pose> = poses.list();
                 let nodes = [&poses[0], &poses[1], &poses[2], &poses[3]];
                 let all = each([0, 1, 2], |g| section(nodes, &AT_GAUSS[g], 2.0 / length));
-                let stretch = all.map(|of| of.tangent.x);
-                let slide = all.map(|of| of.tangent.y);
-                let curvature = all.map(|of| of.curvature);
-                [stretch, slide, curvature].map(|all| all.map(Tape::from))
+                let stretch = all.each(|of| of.tangent.x);
+                let slide = all.each(|of| of.tangent.y);
+                let curvature = all.each(|of| of.curvature);
+                [stretch, slide, curvature].each(|all| all.each(Tape::from))
             }
         }
     }

@@ -14,7 +14,7 @@ use crate::elements::{
     beam_lock, elastic_piece, welded, BodyId, Constraint, ForceElement, PieceNumbers, PointOn,
 };
 use crate::expression::Tape;
-use crate::math::{Listed, Local, Ordered};
+use crate::math::{Listed, Local, Ordered, ShortArray};
 
 /// Elements with their names.
 type Named<E> = Vec<(String, E)>;
@@ -255,26 +255,26 @@ impl BeamParts {
     ) -> (Named<ForceElement<Tape>>, Named<Constraint<Tape>>) {
         let of = &self.stiffness;
         let locked = [("inextensible", true), ("shear", false)]
-            .map(|(key, by)| reader.entry.get(key) == Some(&Value::Flag(by)));
+            .each(|(key, by)| reader.entry.get(key) == Some(&Value::Flag(by)));
         // a locked strain is zero, so that any stiffness exerts no force
         let one = "1".to_string();
         let stiffness = [&of.axial, &of.shear, &of.bending];
-        let soft = [0, 1, 2].map(|k| if k < 2 && locked[k] { &one } else { stiffness[k] });
+        let soft = [0, 1, 2].each(|k| if k < 2 && locked[k] { &one } else { stiffness[k] });
         let (mut made, mut locks) = (Vec::new(), Vec::new());
         for (k, element) in division.elements.iter().enumerate() {
             let (start, length) = (&element.start, &element.length);
             let share = |xi: f64| format!("({start}+({:?})*{length})", 0.5 * (1.0 + xi));
-            let gauss = GAUSS.map(share);
+            let gauss = GAUSS.each(share);
             let numbers = PieceNumbers {
                 start: reader.compose(start),
                 length: reader.compose(length),
-                stiffness: soft.map(|text| stiffness::at(reader, text, &gauss)),
+                stiffness: soft.each(|text| stiffness::at(reader, text, &gauss)),
                 strains: self.line.strains(reader, start, length),
                 damping: self.damping.clone(),
                 stresses: [&of.by_force, &of.by_moment]
-                    .map(|text| stiffness::at(reader, text, &gauss)),
+                    .each(|text| stiffness::at(reader, text, &gauss)),
             };
-            let of = element.nodes.map(|node| ids[node]);
+            let of = element.nodes.each(|node| ids[node]);
             let name = |of: &str| format!("{}.{of}_{}", reader.entry.name, k + 1);
             for axis in [0, 1].into_iter().filter(|axis| locked[*axis]) {
                 locks.push((name(nodes::LOCKS[axis]), beam_lock(of, axis, &numbers)));

@@ -2,7 +2,7 @@
 //! length.
 
 use super::super::problem::Problem;
-use crate::math::{Interpolation, Listed, Spline};
+use crate::math::{Interpolation, Listed, ShortArray, Spline};
 
 /// Gauss points and weights of a panel of the arc length, on [0, 1] (degree 9).
 const RULE: [(f64, f64); 5] = [
@@ -54,7 +54,7 @@ impl Curved {
 
     /// Value and derivative of x and y.
     fn at(&self, u: f64) -> [[f64; 2]; 2] {
-        [&self.x, &self.y].map(|spline| spline.derivatives::<f64, 2>(u, |number| number))
+        [&self.x, &self.y].each(|spline| spline.derivatives::<f64, 2>(u, |number| number))
     }
 
     fn speed(&self, u: f64) -> f64 {

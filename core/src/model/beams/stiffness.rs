@@ -5,7 +5,7 @@ use super::super::definition::Value;
 use super::super::scope::Reach;
 use super::along;
 use crate::expression::Tape;
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 
 /// The constants of a section as texts, which may contain the arc length `s`.
 pub struct Stiffness {
@@ -23,7 +23,7 @@ pub struct Stiffness {
 /// A constant of a section at three arc lengths.
 pub fn at(reader: &mut Reader<'_>, text: &str, s: &[String; 3]) -> [Tape; 3] {
     match along::varies(text) {
-        true => [0, 1, 2].map(|g| reader.compose(&along::at(text, &s[g]))),
+        true => [0, 1, 2].each(|g| reader.compose(&along::at(text, &s[g]))),
         false => {
             let tape = reader.compose(text);
             [tape.clone(), tape.clone(), tape]
@@ -84,7 +84,7 @@ fn as_given(reader: &mut Reader<'_>, length: &str) -> Option<Stiffness> {
     }
     let without = [("EA", "inextensible = true"), ("GA", "shear = false")];
     let flags = [("inextensible", true), ("shear", false)];
-    let locked = flags.map(|(key, by)| reader.entry.get(key) == Some(&Value::Flag(by)));
+    let locked = flags.each(|(key, by)| reader.entry.get(key) == Some(&Value::Flag(by)));
     for key in GIVEN {
         let place = without.iter().position(|(of, _)| *of == key);
         if reader.entry.get(key).is_some() || place.is_some_and(|k| locked[k]) {
@@ -108,7 +108,7 @@ fn as_given(reader: &mut Reader<'_>, length: &str) -> Option<Stiffness> {
             return None;
         }
     }
-    let texts = ["EA", "EI"].map(|key| reader.entry.get(key).map(term));
+    let texts = ["EA", "EI"].each(|key| reader.entry.get(key).map(term));
     let radius = match texts {
         [Some(axial), Some(bending)] => Some(format!("{bending}/{axial}")),
         _ => None,

@@ -5,7 +5,7 @@ use super::place::StateAt;
 use crate::elements::Mode;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
-use crate::math::Listed;
+use crate::math::{Listed, ShortArray};
 use crate::model::Model;
 
 /// The restitution of each contact.
@@ -77,7 +77,7 @@ pub(super) fn driver_work(model: &Model, t: f64, q: &[f64], impulses: &[f64]) ->
         return 0.0;
     }
     let at_rest = Motions::at_rest(&model.layout, q);
-    let [mut phi, mut by_time, mut gamma] = [0, 1, 2].map(|_| vec![0.0; model.layout.n_rows]);
+    let [mut phi, mut by_time, mut gamma] = [0, 1, 2].each(|_| vec![0.0; model.layout.n_rows]);
     constraints::velocity_terms(model, &at_rest, t, &mut phi, &mut by_time, &mut gamma);
     by_time.iter().zip(impulses).map(|(by_time, impulse)| by_time * impulse).sum()
 }

@@ -10,7 +10,7 @@ use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, energy};
 use crate::equations::{Gains, Workspace};
 use crate::math::Listed;
-use crate::math::{Jet, Lift, Real};
+use crate::math::{Jet, Lift, Real, ShortArray};
 use crate::model::{column_scales, row_scales, size, DriverSet, ForceMode, Model};
 
 /// Speeds of friction below this value count as zero, relative to the speeds of the mechanism; accelerations
@@ -220,7 +220,7 @@ pub fn drivers_rest(model: &Model, drivers: DriverSet, t: f64, q: &[f64]) -> boo
         return false;
     }
     let at_rest = Motions::at_rest(&model.layout, q);
-    let [mut phi, mut by_time, mut gamma] = [0, 1, 2].map(|_| vec![0.0; model.layout.n_rows]);
+    let [mut phi, mut by_time, mut gamma] = [0, 1, 2].each(|_| vec![0.0; model.layout.n_rows]);
     constraints::velocity_terms(model, &at_rest, t, &mut phi, &mut by_time, &mut gamma);
     let scales = row_scales(model);
     let still = |row: usize| by_time[row].abs() <= STILL * scales[row];
