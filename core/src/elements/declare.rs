@@ -1,7 +1,7 @@
 //! The declaration of an element. One macro defines the struct over any scalar, its `map` between scalars, its reader
 //! and its table of fields.
 
-use super::field::Field;
+use super::field::{Default, Field, Shape};
 use super::kinds::Source;
 use crate::expression::Tape;
 use crate::math::Listed;
@@ -38,6 +38,29 @@ pub(super) fn join(lines: &[&str]) -> String {
     lines.iter().map(|line| line.trim()).list().join("\n").trim().to_string()
 }
 
+/// The declaration of a field: its name, shape, unit and default, and its doc lines.
+#[doc(hidden)]
+pub type FieldRow<'a> = (&'static str, Shape, &'a str, Option<Default>, &'a [&'a str]);
+
+/// The declarations of fields as data.
+#[doc(hidden)]
+pub fn declared_fields(declared: &[FieldRow<'_>]) -> Vec<Field> {
+    let field = |&(name, shape, unit, default, doc): &FieldRow<'_>| Field {
+        name: plain(name),
+        shape,
+        unit: unit.to_string(),
+        default,
+        doc: join(doc),
+    };
+    declared.iter().map(field).list()
+}
+
+/// The next field, which has this name.
+#[doc(hidden)]
+pub fn next_field<'f>(fields: &mut std::slice::Iter<'f, Field>, name: &'static str) -> &'f Field {
+    fields.next().filter(|field| field.name == plain(name)).expect("a field of the table")
+}
+
 /// The name of a field without the prefix `r#` of Rust keywords, as in `r#static`.
 #[doc(hidden)]
 pub fn plain(field: &'static str) -> &'static str {
@@ -64,25 +87,28 @@ macro_rules! element {
                 $crate::elements::Table {
                     name: $name,
                     doc: $crate::elements::join(&[$($doc),*]),
-                    fields: vec![$($crate::elements::Field {
-                        name: $crate::elements::plain(stringify!($field)),
-                        shape: <$crate::elements::$kind as $crate::elements::Kind>::SHAPE,
-                        unit: concat!($($(stringify!($unit)),*)?).to_string(),
-                        default: <$crate::elements::$kind as $crate::elements::Kind>::DEFAULT
+                    fields: $crate::elements::declared_fields(&[$((
+                        stringify!($field),
+                        <$crate::elements::$kind as $crate::elements::Kind>::SHAPE,
+                        concat!($($(stringify!($unit)),*)?),
+                        <$crate::elements::$kind as $crate::elements::Kind>::DEFAULT
                             $(.or(Some($default.into())))?,
-                        doc: $crate::elements::join(&[$($about),*]),
-                    }),+],
+                        &[$($about),*],
+                    )),+]),
                 }
             }
 
             fn read(source: &mut dyn $crate::elements::Source)
                 -> Option<$Name<$crate::expression::Tape>>
             {
-                let mut fields = <Self as $crate::elements::Element>::table().fields.into_iter();
+                let table = <Self as $crate::elements::Element>::table();
+                let mut fields = table.fields.iter();
                 // every field is read, so that all errors are reported at once
-                $(let $field = <$crate::elements::$kind as $crate::elements::Kind>::read(
-                    source, &fields.next()?);)+
-                Some($Name { $($field: $field?),+ })
+                match ($(<$crate::elements::$kind as $crate::elements::Kind>::read(
+                    source, $crate::elements::next_field(&mut fields, stringify!($field))),)+) {
+                    ($(Some($field),)+) => Some($Name { $($field),+ }),
+                    _ => None,
+                }
             }
 
             fn map<S, T>(e: &$Name<S>, f: &mut dyn FnMut(&S) -> T) -> $Name<T> {
@@ -91,12 +117,15 @@ macro_rules! element {
             }
 
             fn scalars<S>(e: &$Name<S>) -> Vec<usize> {
+                let count = std::cell::Cell::new(0);
+                // any scalar counts; this one is mapped to elsewhere too, so that it needs no further code
+                let mut visit = |_: &S| -> $crate::math::Jet {
+                    count.set(count.get() + 1);
+                    $crate::math::Real::zero()
+                };
                 vec![$({
-                    let mut count = 0;
-                    // any scalar counts; this one is mapped to elsewhere too, so that it needs no further code
-                    <$crate::elements::$kind as $crate::elements::Kind>::map::<S, $crate::math::Jet>(
-                        &e.$field, &mut |_| { count += 1; $crate::math::Real::zero() });
-                    count
+                    <$crate::elements::$kind as $crate::elements::Kind>::map(&e.$field, &mut visit);
+                    count.take()
                 }),+]
             }
         }

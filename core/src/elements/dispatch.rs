@@ -65,6 +65,14 @@ macro_rules! constraints {
             pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Constraint<T> {
                 match self { $($($(#[$on])* Self::$Name(e) => Constraint::$Name(<$Name>::map(e, f)),)+)+ }
             }
+            /// Passes each scalar to a function, in the order of [`Constraint::map`].
+            pub fn visit(&self, f: &mut dyn FnMut(&S)) {
+                // mapped to this scalar elsewhere too, so that it needs no further code
+                self.map::<Jet>(&mut |x| {
+                    f(x);
+                    Jet::zero()
+                });
+            }
             /// The number of scalars of each field, in the order of [`Constraint::map`].
             pub fn scalars(&self) -> Vec<usize> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name>::scalars(e),)+)+ }
@@ -239,15 +247,18 @@ macro_rules! constraints {
         impl<S: Real> JointPools<S> {
             /// Adds a joint or a driver.
             pub fn push(&mut self, constraint: &Constraint<S>, place: Place) {
-                match constraint { $($($(#[$on])* Constraint::$Name(e) => {
-                    let entry = Pooled { element: e.clone(), place };
-                    for pool in &mut self.0 {
-                        if let JointPool::$Name(pool) = pool {
-                            return pool.push(entry);
-                        }
+                for pool in &mut self.0 {
+                    match (pool, constraint) {
+                        $($($(#[$on])* (JointPool::$Name(pool), Constraint::$Name(e)) => {
+                            return pool.push(Pooled { element: e.clone(), place });
+                        })+)+
+                        _ => {} // of another type
                     }
-                    self.0.push(JointPool::$Name(vec![entry]));
-                })+)+ }
+                }
+                self.0.push(match constraint {
+                    $($($(#[$on])* Constraint::$Name(_) => JointPool::$Name(Vec::new()),)+)+
+                });
+                self.push(constraint, place);
             }
             /// Passes every type that occurs to the visitor.
             #[inline(always)]

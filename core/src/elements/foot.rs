@@ -301,7 +301,12 @@ impl<S: Real> Rim<S> {
             Curve::Points(own) => {
                 own.points.iter().flat_map(|s| [of(&s.x), of(&s.y)]).append_to(&mut all)
             }
-            curve => drop(curve.map(&mut |x: &S| all.push(of(x)))),
+            curve => {
+                curve.map(&mut |x: &S| {
+                    all.push(of(x));
+                    0.0
+                });
+            }
         }
         all
     }

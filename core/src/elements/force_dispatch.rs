@@ -65,6 +65,14 @@ macro_rules! forces {
             pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> ForceElement<T> {
                 match self { $($(#[$on])* Self::$Name(e) => ForceElement::$Name(<$Name>::map(e, f)),)+ }
             }
+            /// Passes each scalar to a function, in the order of [`ForceElement::map`].
+            pub fn visit(&self, f: &mut dyn FnMut(&S)) {
+                // mapped to this scalar elsewhere too, so that it needs no further code
+                self.map::<Jet>(&mut |x| {
+                    f(x);
+                    Jet::zero()
+                });
+            }
             /// The number of scalars of each field, in the order of [`ForceElement::map`].
             pub fn scalars(&self) -> Vec<usize> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::scalars(e),)+ }
@@ -313,15 +321,18 @@ macro_rules! forces {
         impl<S: Real> ForcePools<S> {
             /// Adds a force.
             pub fn push(&mut self, force: &ForceElement<S>, place: Place) {
-                match force { $($(#[$on])* ForceElement::$Name(e) => {
-                    let entry = Pooled { element: e.clone(), place };
-                    for pool in &mut self.0 {
-                        if let ForcePool::$Name(pool) = pool {
-                            return pool.push(entry);
-                        }
+                for pool in &mut self.0 {
+                    match (pool, force) {
+                        $($(#[$on])* (ForcePool::$Name(pool), ForceElement::$Name(e)) => {
+                            return pool.push(Pooled { element: e.clone(), place });
+                        })+
+                        _ => {} // of another type
                     }
-                    self.0.push(ForcePool::$Name(vec![entry]));
-                })+ }
+                }
+                self.0.push(match force {
+                    $($(#[$on])* ForceElement::$Name(_) => ForcePool::$Name(Vec::new()),)+
+                });
+                self.push(force, place);
             }
             /// Passes every type that occurs to the visitor.
             #[inline(always)]

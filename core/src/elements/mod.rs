@@ -140,7 +140,7 @@ pub mod forces {
 pub mod test_elements;
 
 use crate::expression::Tape;
-use crate::math::{Lift, Listed, Local, Pose, Real, ShortArray, Vec2, Wrench};
+use crate::math::{Jet, Lift, Listed, Local, Pose, Real, ShortArray, Vec2, Wrench};
 pub use apart::{Apart, Way};
 pub use attachment::Attachment;
 pub use clearance::Clearance;
@@ -151,7 +151,7 @@ pub use curve_formula::Formula as CurveFormula;
 pub use curve_points::CurvePoints;
 use declare::join;
 #[doc(hidden)]
-pub use declare::plain;
+pub use declare::{declared_fields, next_field, plain, FieldRow};
 pub use declare::{Element, Table};
 use dispatch::{constraints, declared};
 use drivers::*;

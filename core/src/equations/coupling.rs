@@ -80,7 +80,7 @@ pub(super) fn by_force(model: &Model, pairs: &mut Pairs) -> Vec<Participants> {
         let item = &model.forces[k];
         let mut depends = Dependence::default();
         if let Some(law) = &item.law {
-            law.map(&mut |tape| depends.add(tape));
+            law.visit(&mut |tape| depends.add(tape));
         }
         if depends.whole {
             (1..model.bodies.len()).map(BodyId).append_to(&mut depends.bodies);

@@ -21,7 +21,7 @@ pub fn functions<S: Real>(
     let laws = model.constraints.iter().filter_map(|item| item.law.as_ref());
     for law in laws {
         let values = laws::held(parameters, motions, &[], acting.t);
-        law.map(&mut |tape: &Tape| tape.switch_functions(&values, |k, sigma| out[k] = sigma));
+        law.visit(&mut |tape: &Tape| tape.switch_functions(&values, |k, sigma| out[k] = sigma));
     }
     for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
         if let Some(k) = item.curve_switch {
@@ -31,7 +31,7 @@ pub fn functions<S: Real>(
     for (k, item) in model.forces.iter().enumerate() {
         if let Some(law) = &item.law {
             let values = laws::held(parameters, motions, acting.z, acting.t);
-            law.map(&mut |tape: &Tape| tape.switch_functions(&values, |k, sigma| out[k] = sigma));
+            law.visit(&mut |tape: &Tape| tape.switch_functions(&values, |k, sigma| out[k] = sigma));
         }
         forces::switches(model, k, motions, acting, &mut out[item.first_switch..]);
     }
@@ -46,7 +46,7 @@ pub fn law_values(model: &Model, k: usize, motions: &Motions, t: f64) -> Vec<Jet
     let (parameters, pieces) = (&model.parameters, &motions.pieces);
     let values = Laws { parameters, t, coordinate, own: [&[]; 2], z: &[], pieces, function: None };
     let mut all = Vec::new();
-    law.map(&mut |tape: &Tape| all.push(tape.evaluate(&values)));
+    law.visit(&mut |tape: &Tape| all.push(tape.evaluate(&values)));
     all
 }
 

@@ -262,7 +262,7 @@ fn has_velocity(
     problems: &mut Vec<Problem>,
 ) -> bool {
     let mut broken = None;
-    constraint.map(&mut |tape| {
+    constraint.visit(&mut |tape| {
         broken = broken.take().or_else(|| {
             let found = tape.tables().into_iter().find(|table| table.is_broken());
             found.map(|table| table.name().to_string())

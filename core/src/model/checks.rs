@@ -52,7 +52,7 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
             Some(law) => law.map(&mut |tape| constant(tape, &model.parameters)),
         };
         if item.law.is_none() {
-            element.map(&mut |x| check(&[section, &item.name], *x, problems));
+            element.visit(&mut |x| check(&[section, &item.name], *x, problems));
         }
         if let Some((field, message)) = element.fault() {
             problems.push(Problem::at(&[section, &item.name, field], message));
@@ -74,7 +74,7 @@ fn forces(model: &Model, problems: &mut Vec<Problem>) {
             continue;
         }
         if item.law.is_none() {
-            element.map(&mut |x| check(&[section, &item.name], *x, problems));
+            element.visit(&mut |x| check(&[section, &item.name], *x, problems));
         }
         let small = element.play().filter(|(_, play)| *play <= least).map(|(field, play)| {
             let message = format!(

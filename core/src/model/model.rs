@@ -63,7 +63,7 @@ impl<S: Real> Model<S> {
         let (mut touched, mut switches, mut constraints) = (Vec::new(), Vec::new(), Vec::new());
         for (name, group, formula) in blueprint.constraints.iter() {
             let mut depends = Dependence::default();
-            formula.map(&mut |tape| depends.add(tape));
+            formula.visit(&mut |tape| depends.add(tape));
             let (equations, mut bodies) = (formula.equations(), formula.bodies());
             if bodies.is_empty() {
                 bodies.clone_from(&depends.bodies);
@@ -173,7 +173,7 @@ fn forces<S: Real>(
 ) -> Vec<ForceItem<S>> {
     let items = blueprint.forces.iter().enumerate().map(|(k, (name, states, formula))| {
         let mut depends = Dependence::default();
-        formula.map(&mut |tape| depends.add(tape));
+        formula.visit(&mut |tape| depends.add(tape));
         let owner = SwitchOwner::Force(k);
         let law = depends
             .any()

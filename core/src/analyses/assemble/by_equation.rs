@@ -44,7 +44,7 @@ impl<'a> ByEquation<'a> {
 fn is_of_its_bodies(item: &ConstraintItem) -> bool {
     let mut depends = Dependence::default();
     if let Some(law) = &item.law {
-        law.map(&mut |tape| depends.add(tape));
+        law.visit(&mut |tape| depends.add(tape));
     }
     depends.internals.is_empty() && depends.bodies.iter().all(|body| item.bodies.contains(body))
 }

@@ -128,7 +128,7 @@ pub(super) fn of_rigid(failure: Failure) -> Box<Failure> {
 fn refusal(model: &Model, item: &ConstraintItem, motions: &Motions, t: f64) -> Option<String> {
     let values = at(&model.parameters, motions, &[], t);
     let mut found = None;
-    item.law.as_ref()?.map(&mut |tape| found = found.take().or_else(|| tape.refusal(&values)));
+    item.law.as_ref()?.visit(&mut |tape| found = found.take().or_else(|| tape.refusal(&values)));
     found
 }
 

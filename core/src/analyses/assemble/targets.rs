@@ -86,7 +86,7 @@ fn driven(model: &Model, item: &ConstraintItem, t: f64) -> Option<(BodyId, Coord
 pub(super) fn at_time(model: &Model, item: &ConstraintItem, t: f64) -> Option<Constraint> {
     let Some(law) = &item.law else { return Some(item.element.clone()) };
     let mut depends = Dependence::default();
-    law.map(&mut |tape| depends.add(tape));
+    law.visit(&mut |tape| depends.add(tape));
     let values = crate::equations::at(&model.parameters, &[], &[], t);
     depends.bodies.is_empty().then(|| law.map(&mut |tape| tape.evaluate(&values)))
 }

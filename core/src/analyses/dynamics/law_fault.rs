@@ -56,12 +56,12 @@ fn undefined_at(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Option<LawFaul
     };
     let constraints = model.constraints.iter().filter_map(|item| {
         let mut all = Vec::new();
-        item.law.as_ref()?.map(&mut |tape| all.push(without(tape)));
+        item.law.as_ref()?.visit(&mut |tape| all.push(without(tape)));
         Some((item.group, item.element.kind(), item.element.scalars(), &item.name, all))
     });
     let forces = model.forces.iter().filter_map(|item| {
         let mut all = Vec::new();
-        item.law.as_ref()?.map(&mut |tape| all.push(without(tape)));
+        item.law.as_ref()?.visit(&mut |tape| all.push(without(tape)));
         Some((item.element.group(), item.element.kind(), item.element.scalars(), &item.name, all))
     });
     let written = constraints.chain(forces).find_map(|(group, kind, scalars, name, all)| {

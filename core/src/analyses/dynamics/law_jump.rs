@@ -36,7 +36,7 @@ impl LawJump {
         let old = law_values(model, k, motions, t);
         motions.pieces = after;
         let mut selected = Vec::new();
-        model.constraints[k].law.as_ref()?.map(&mut |tape| selected.push(which(tape)));
+        model.constraints[k].law.as_ref()?.visit(&mut |tape| selected.push(which(tape)));
         let scale = row_scales(model)[model.layout.constraints[k].rows.start];
         let pairs = old.into_iter().zip(new).zip(selected);
         pairs.filter(|(_, selected)| *selected).find_map(|((old, new), _)| {

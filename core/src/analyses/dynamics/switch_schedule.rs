@@ -40,10 +40,10 @@ impl Schedule {
             }
         };
         model.constraints.iter().filter_map(|item| item.law.as_ref()).for_each(|law| {
-            law.map(&mut keep);
+            law.visit(&mut keep);
         });
         model.forces.iter().filter_map(|item| item.law.as_ref()).for_each(|law| {
-            law.map(&mut keep);
+            law.visit(&mut keep);
         });
         let ends = [t0.min(t_end), t0.max(t_end)];
         let mut times = Vec::new();

@@ -104,7 +104,7 @@ fn driver(model: &Model) -> Option<&ConstraintItem> {
     items.max_by_key(|item| {
         let mut depends = Dependence::default();
         if let Some(law) = &item.law {
-            law.map(&mut |tape| depends.add(tape));
+            law.visit(&mut |tape| depends.add(tape));
         }
         (item.group == Group::Drivers, depends.time)
     })

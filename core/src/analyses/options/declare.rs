@@ -116,22 +116,22 @@ macro_rules! options {
                 #[allow(unused_imports)] // where there are no options
                 use $crate::analyses::options::OptionKind;
                 let doc = |lines: &[&str]| lines.concat().trim().to_string();
-                let fields = vec![
-                    $($crate::elements::Field {
-                        name: stringify!($required),
-                        shape: <$must as OptionKind>::shape(),
-                        unit: concat!($($(stringify!($in)),*)?).to_string(),
-                        default: None,
-                        doc: doc(&[$($what),*]),
-                    },)*
-                    $($crate::elements::Field {
-                        name: $crate::elements::plain(stringify!($field)),
-                        shape: <$kind as OptionKind>::shape(),
-                        unit: concat!($($(stringify!($unit)),*)?).to_string(),
-                        default: Some(<$kind as OptionKind>::data(&$default)),
-                        doc: doc(&[$($about),*]),
-                    },)*
-                ];
+                let fields = $crate::elements::declared_fields(&[
+                    $((
+                        stringify!($required),
+                        <$must as OptionKind>::shape(),
+                        concat!($($(stringify!($in)),*)?),
+                        None,
+                        &[concat!($($what),*)],
+                    ),)*
+                    $((
+                        stringify!($field),
+                        <$kind as OptionKind>::shape(),
+                        concat!($($(stringify!($unit)),*)?),
+                        Some(<$kind as OptionKind>::data(&$default)),
+                        &[concat!($($about),*)],
+                    ),)*
+                ]);
                 $crate::analyses::options::Declaration::new(
                     $class,
                     $crate::elements::Table { name: $name, doc: doc(&[$($doc),*]), fields },
@@ -142,11 +142,17 @@ macro_rules! options {
             #[allow(unused_variables)] // where there are no options
             fn read(reader: &mut $crate::analyses::options::Reader<'_>) -> Option<Self> {
                 // every option is read, so that all problems are reported at once
-                $(let $required = <$must as $crate::analyses::options::OptionKind>::required(
-                    reader, stringify!($required), concat!($($(stringify!($in)),*)?));)*
-                $(let $field = <$kind as $crate::analyses::options::OptionKind>::optional(
-                    reader, $crate::elements::plain(stringify!($field)), concat!($($(stringify!($unit)),*)?), $default);)*
-                Some(Self { $($required: $required?,)* $($field: $field?),* })
+                #[allow(unreachable_patterns)] // where there are no options
+                match (
+                    $(<$must as $crate::analyses::options::OptionKind>::required(
+                        reader, stringify!($required), concat!($($(stringify!($in)),*)?)),)*
+                    $(<$kind as $crate::analyses::options::OptionKind>::optional(
+                        reader, $crate::elements::plain(stringify!($field)),
+                        concat!($($(stringify!($unit)),*)?), $default),)*
+                ) {
+                    ($(Some($required),)* $(Some($field),)*) => Some(Self { $($required,)* $($field),* }),
+                    _ => None,
+                }
             }
 
             $(fn conflict(

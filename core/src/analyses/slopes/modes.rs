@@ -110,7 +110,7 @@ fn refusal(model: &Model, v: &[f64]) -> Option<&'static str> {
     let changes = |item: &crate::model::ConstraintItem| {
         let mut depends = Dependence::default();
         if let Some(law) = &item.law {
-            law.map(&mut |tape: &Tape| depends.add(tape));
+            law.visit(&mut |tape: &Tape| depends.add(tape));
         }
         depends.time && (item.group != Group::Drivers || !depends.bodies.is_empty())
     };

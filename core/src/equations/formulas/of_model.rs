@@ -70,7 +70,7 @@ pub fn of_constraint(
 /// The internal coordinates of other joints on which a constraint depends, ascending.
 fn internals(element: &Constraint<Tape>) -> Vec<usize> {
     let mut depends = Dependence::default();
-    element.map(&mut |tape| depends.add(tape));
+    element.visit(&mut |tape| depends.add(tape));
     depends.internals.sort_unstable();
     depends.internals.dedup();
     depends.internals
@@ -79,7 +79,7 @@ fn internals(element: &Constraint<Tape>) -> Vec<usize> {
 /// The moving bodies on which a constraint and its laws depend, each once.
 fn touched(element: &Constraint<Tape>) -> Vec<BodyId> {
     let mut depends = Dependence::default();
-    element.map(&mut |tape| depends.add(tape));
+    element.visit(&mut |tape| depends.add(tape));
     let all = element.bodies().into_iter().chain(depends.bodies);
     let mut once = Vec::new();
     for body in all {
@@ -103,7 +103,7 @@ fn points(
     let reference =
         Laws { parameters, t: 0.0, coordinate, own: [&[]; 2], z: &[], pieces: &[], function: None };
     let mut values = Vec::new();
-    element.map(&mut |tape| values.push(tape.evaluate(&reference)));
+    element.visit(&mut |tape| values.push(tape.evaluate(&reference)));
     let mut all = Vec::new();
     for scalar in scalars(element) {
         match scalar {

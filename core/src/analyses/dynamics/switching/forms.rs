@@ -30,7 +30,7 @@ impl SwitchForm {
             SwitchOwner::Constraint(k) => {
                 let item = &model.constraints[k];
                 if let Some(law) = &item.law {
-                    law.map(&mut look);
+                    law.visit(&mut look);
                 }
                 match item.curve_switch == Some(switch) {
                     true => Self::Column(model.layout.constraints[k].own.first),
@@ -40,7 +40,7 @@ impl SwitchForm {
             SwitchOwner::Force(k) => {
                 let item = &model.forces[k];
                 if let Some(law) = &item.law {
-                    law.map(&mut look);
+                    law.visit(&mut look);
                 }
                 // a contact has two switches: its onset, and the sign of its force
                 let contacts = item.element.clearances().len();
