@@ -22,7 +22,7 @@ from kempe.model.infos import (
     ForceInfo,
     Setting,
     Vector,
-    body,
+    bodies,
     constraint,
     force,
     vector,
@@ -225,12 +225,7 @@ class CompiledModel:
     @cached_property
     def all_bodies(self) -> Mapping[str, BodyInfo]:
         """Ground and the moving bodies, in the order of q."""
-        found, shown = dict[str, BodyInfo](), 0
-        for number, about in enumerate(self._about["bodies"]):
-            info = body(number, shown, about)
-            shown = info.shown_number or shown
-            found[info.name] = info
-        return MappingProxyType(found)
+        return MappingProxyType({info.name: info for info in bodies(self._about["bodies"])})
 
     @cached_property
     def bodies(self) -> Mapping[str, BodyInfo]:

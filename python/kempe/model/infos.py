@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
 from types import MappingProxyType
 from typing import Any, TypeAlias
@@ -213,9 +213,16 @@ def _measured(entries: list[dict[str, Any]]) -> tuple[Measured, ...]:
     return tuple(Measured(names=tuple(of["names"]), unit=of["unit"]) for of in entries)
 
 
-def body(number: int, before: int, entry: dict[str, Any]) -> BodyInfo:
-    """A body from its entry in the description by the core, and the last shown number before it."""
-    is_shown = number > 0 and entry["type"] != "node"
+def bodies(entries: Iterable[dict[str, Any]]) -> Iterator[BodyInfo]:
+    """The bodies, ground first, from their entries in the description by the core."""
+    shown = 0
+    for number, entry in enumerate(entries):
+        is_shown = number > 0 and entry["type"] != "node"
+        shown += is_shown
+        yield _body(number, shown if is_shown else 0, entry)
+
+
+def _body(number: int, shown_number: int, entry: dict[str, Any]) -> BodyInfo:
     points = {name: vector(point) for name, point in entry["points"].items()}
     curves = {
         name: (tuple(map(vector, curve["points"])), bool(curve["closed"]))
@@ -226,7 +233,7 @@ def body(number: int, before: int, entry: dict[str, Any]) -> BodyInfo:
         name=entry["name"],
         type=entry["type"] or "",
         number=number,
-        shown_number=before + 1 if is_shown else 0,
+        shown_number=shown_number,
         mass=float(entry["mass"] or 0.0),
         inertia=float(entry["inertia"] or 0.0),
         center=vector(entry["center"]),
