@@ -1,6 +1,6 @@
 // All English texts of the studio and its worker, with designTexts.ts, drawingTexts.ts and playerTexts.ts. Names of types come from the catalogue.
 import { coreTexts } from "./coreTexts";
-import { design, exercise, slopes } from "./designTexts";
+import { design, exercise, improve, slopes } from "./designTexts";
 import { atPlace, edit, labels, machines, place, stems } from "./drawingTexts";
 import { ARROWS_ON, forces, ON_ALL } from "./playerTexts";
 
@@ -112,6 +112,7 @@ export const texts = {
     angle: "angle",
     absent: "–",
   },
+  improve,
   slopes,
   exercise,
   design,

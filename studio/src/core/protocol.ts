@@ -209,6 +209,22 @@ export interface Exercise {
   questions: Question[];
 }
 
+/** A search for the values of parameters that are best within limits, in SI units. */
+export interface Search {
+  runs: number;
+  failed: number;
+  /** Why a run failed. */
+  reason: string | null;
+  ending: "best" | "corner" | "enough" | null;
+  label: string;
+  unit: string;
+  before: number | null;
+  now: number | null;
+  values: { name: string; before: number; now: number; reached: boolean }[];
+  limits: { text: string; state: "holds" | "reached" | "missed" }[];
+  changes: Change[];
+}
+
 /** The answer to the section [synthesis]. */
 export interface Solved {
   poses: Triple[];
@@ -264,6 +280,8 @@ export interface Requests {
     send: { measure: string; analysis?: string };
     reply: { value: number; unit: string; slopes: { name: string; slope: number | null; remark: string | null }[] };
   };
+  optimize: { send: object; reply: Search };
+  improve: { send: object; reply: Search };
   synthesis: { send: object; reply: Solved };
   candidate: { send: { choice: number }; reply: { changes: Change[] } };
   instant: { send: { at: number }; reply: Instant };

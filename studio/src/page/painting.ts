@@ -1,6 +1,7 @@
 // Paints the whole drawing from the state of the page.
 import { isPin } from "../catalogue/catalogue";
 import { entry } from "../catalogue/tree";
+import { before } from "../design/improve";
 import { paintCandidate, paintPoses } from "../design/painting";
 import { active, candidate, poses as designPoses, taken } from "../design/task";
 import { paintCentres, paintCentrodes } from "../diagrams/painting";
@@ -36,6 +37,7 @@ export function follow(): void {
   for (const one of [
     backdrop,
     active,
+    before,
     blamed,
     candidate,
     centres,
@@ -72,6 +74,7 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
     if (!bare) paintSelection(context, colours);
     if (!bare)
       for (const at of blamed.value.flatMap(placesOfPart)) paintRing(context, view, at, colours, 18, "problem");
+    paintBefore(context, colours);
     const names = paintItems(context, view, items.value, poses.value, shown.value, colours);
     if (!items.value.length) paintLinks(context, view, found.bodies, poses.value, colours);
     if (editing && mode.value === "edit") paintHandles(context, view, loosePoints(), colours);
@@ -86,6 +89,16 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
   if (bare) return;
   if (ghost.value) paintGhost(context, view, ghost.value, colours);
   paintPreview(context, colours);
+}
+
+/** The mechanism before a search, faint. */
+function paintBefore(context: CanvasRenderingContext2D, colours: Colours): void {
+  if (!before.value) return;
+  context.save();
+  context.globalAlpha = 0.35;
+  context.setLineDash([8, 6]);
+  paintLinks(context, view, before.value.bodies, before.value.poses, colours);
+  context.restore();
 }
 
 function paintDesign(context: CanvasRenderingContext2D, colours: Colours): void {

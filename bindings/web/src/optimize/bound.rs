@@ -1,0 +1,94 @@
+//! The variables of a search.
+
+use super::{entry, number, refused};
+use crate::fault::Fault;
+use crate::loaded::Loaded;
+use crate::typed::typed;
+use kempe::model::Value as Written;
+use serde_json::{json, Value};
+
+/// A variable between its bounds.
+pub struct Bound {
+    /// The parameter.
+    pub name: String,
+    /// Its least and largest value.
+    pub ends: [f64; 2],
+    log: bool,
+    /// Its value in the text.
+    pub before: f64,
+    written: Option<Written>,
+}
+
+impl Bound {
+    /// The value at a point of the unit interval; both ends are exact.
+    pub fn at(&self, share: f64) -> f64 {
+        let [least, largest] = self.ends;
+        match share {
+            _ if share <= 0.0 => least,
+            _ if share >= 1.0 => largest,
+            _ if self.log => least * (largest / least).powf(share),
+            _ => least + share * (largest - least),
+        }
+    }
+
+    /// The point of the unit interval that belongs to a value.
+    pub fn share(&self, x: f64) -> f64 {
+        let [least, largest] = self.ends;
+        let found = match self.log {
+            true if x * least <= 0.0 => 0.0,
+            true => (x / least).ln() / (largest / least).ln(),
+            false => (x - least) / (largest - least),
+        };
+        found.clamp(0.0, 1.0)
+    }
+
+    /// The derivative of the value by the share.
+    pub fn rate(&self, x: f64) -> f64 {
+        let [least, largest] = self.ends;
+        if self.log {
+            x * (largest / least).ln()
+        } else {
+            largest - least
+        }
+    }
+
+    /// A value as it is written: in the unit of the text before.
+    pub fn written(&self, x: f64) -> Value {
+        let Some(Written::Text(text)) = &self.written else { return json!(x) };
+        let rest = text.trim_start_matches(|c: char| "+-.0123456789 ".contains(c));
+        let one = Written::Text(format!("1 {rest}"));
+        match typed(&one, "", "") {
+            Ok(factor) if !rest.is_empty() => json!(format!("{} {rest}", x / factor)),
+            _ => json!(x),
+        }
+    }
+}
+
+/// The variables of the section.
+pub fn bounds(loaded: &Loaded, section: &[(String, Written)]) -> Result<Vec<Bound>, Fault> {
+    let Some(Written::Table(given)) = entry(section, "variables") else {
+        return Err(Fault::new("there are no variables").hint("tick a parameter that may change"));
+    };
+    let one = |(name, of): &(String, Written)| {
+        let parameters = &loaded.case.definition.parameters;
+        let Some(written) = entry(parameters, name) else {
+            return Err(refused(&format!("'{name}', which is no parameter")));
+        };
+        let Written::List(ends) = of else { return Err(refused("such bounds")) };
+        let [least, largest] = [0, 1].map(|k| number(ends.get(k)));
+        let log = ends.len() > 2;
+        if !(least < largest) || log && least * largest <= 0.0 {
+            let message = format!("the bounds of {name} are {least} and {largest}");
+            return Err(Fault::new(message).hint("the second must be larger"));
+        }
+        let place = loaded.model.blueprint.parameters.iter().position(|known| known == name);
+        Ok(Bound {
+            name: name.clone(),
+            ends: [least, largest],
+            log,
+            before: place.map_or(f64::NAN, |k| loaded.model.parameters[k]),
+            written: Some(written.clone()),
+        })
+    };
+    given.iter().map(one).collect()
+}

@@ -1,0 +1,409 @@
+//! The best point between bounds and within limits: sequential quadratic programming with the curvature of Broyden,
+//! Fletcher, Goldfarb and Shanno, damped as Powell (1978) proposes, and Han's line search (1977). The caller computes the
+//! points, so that it can stop after each.
+
+use super::quadratic::{dot, step, times};
+
+/// Most points of a search, and rounds with a new scale.
+const MOST: usize = 300;
+const ROUNDS: usize = 4;
+/// Part of the objective by which a further step must lower it.
+const GAIN: f64 = 1e-15;
+/// Part of the objective that a round must gain for another one.
+const WORTH: f64 = 1e-9;
+/// Part of the size of a limit by which it may be exceeded.
+const TOLERANCE: f64 = 1e-6;
+/// Part of the expected decrease that a step must reach, and rounding errors of the objective.
+const ENOUGH: f64 = 1e-4;
+const ROUNDED: f64 = 1e-14;
+/// The shortest step, as a part of the computed one; the part that is kept where a point has no value.
+const SHORTEST: f64 = 1e-7;
+const AWAY: f64 = 0.25;
+/// Part of the curvature that a step must show.
+const DAMPED: f64 = 0.2;
+
+/// What is known of a point.
+#[derive(Clone, Debug)]
+pub struct Known {
+    /// The objective, which is made small, and its derivatives.
+    pub value: f64,
+    /// By each unknown.
+    pub slope: Vec<f64>,
+    /// The room in each limit as a part of its size, at least 0 where it holds.
+    pub room: Vec<f64>,
+    /// Its derivatives, (limits, unknowns).
+    pub room_slopes: Vec<Vec<f64>>,
+}
+
+impl Known {
+    /// The largest excess of a limit; 0 if all hold.
+    pub fn excess(&self) -> f64 {
+        self.room.iter().fold(0.0, |most, room| most.max(-room))
+    }
+
+    /// Whether all limits hold.
+    pub fn holds(&self) -> bool {
+        self.excess() <= TOLERANCE
+    }
+
+    /// Whether all numbers are finite.
+    pub fn is_finite(&self) -> bool {
+        let of_room = self.room.iter().chain(self.room_slopes.iter().flatten());
+        of_room.chain(&self.slope).chain([&self.value]).all(|x| x.is_finite())
+    }
+
+    fn is_better(&self, other: &Self) -> bool {
+        match self.holds() && other.holds() {
+            true => self.value < other.value,
+            false => self.excess() < other.excess(),
+        }
+    }
+}
+
+/// How a search ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// No step gains anything.
+    Best,
+    /// Steps hardly gain anything, as at a corner of the objective.
+    Corner,
+    /// The first point has no value.
+    NoValue,
+    /// There were enough points.
+    Enough,
+}
+
+/// A planned step, the multipliers of all limits and bounds, and the curvature times the step.
+#[derive(Clone, Debug)]
+struct Plan {
+    step: Vec<f64>,
+    curved: Vec<f64>,
+    gain: f64,
+}
+
+/// A search in the unit cube.
+#[derive(Clone, Debug)]
+pub struct Descent {
+    at: Vec<f64>,
+    now: Option<(Vec<f64>, Known)>,
+    best: Option<(Vec<f64>, Known)>,
+    plan: Option<Plan>,
+    share: f64,
+    inverse: Vec<f64>,
+    size: f64,
+    penalties: Vec<f64>,
+    factors: Vec<f64>,
+    fresh: bool,
+    rounds: usize,
+    before: f64,
+    points: usize,
+}
+
+impl Descent {
+    /// A search from a point of the unit cube.
+    pub fn new(start: Vec<f64>) -> Self {
+        Self {
+            at: start,
+            now: None,
+            best: None,
+            plan: None,
+            share: 1.0,
+            inverse: Vec::new(),
+            size: 1.0,
+            penalties: Vec::new(),
+            factors: Vec::new(),
+            fresh: true,
+            rounds: 0,
+            before: f64::INFINITY,
+            points: 0,
+        }
+    }
+
+    /// The point that is computed next.
+    pub fn point(&self) -> &[f64] {
+        &self.at
+    }
+
+    /// The best point until now.
+    pub fn best(&self) -> Option<&(Vec<f64>, Known)> {
+        self.now.as_ref().filter(|(_, now)| now.holds()).or(self.best.as_ref())
+    }
+
+    /// Goes on with what is known of [`point`](Self::point), None if it has no value, until the search ends.
+    pub fn take(&mut self, found: Option<Known>) -> Option<Ending> {
+        self.points += 1;
+        if let Some(found) = &found {
+            if self.best.as_ref().is_none_or(|(_, best)| found.is_better(best)) {
+                self.best = Some((self.at.clone(), found.clone()));
+            }
+        }
+        let Some((_, now)) = &self.now else {
+            let Some(first) = found else { return Some(Ending::NoValue) };
+            self.penalties = vec![0.0; first.room.len()];
+            self.size = first.value.abs();
+            if self.size == 0.0 {
+                let steepest = first.slope.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+                self.size = if steepest > 0.0 { steepest } else { 1.0 };
+            }
+            self.now = Some((self.at.clone(), first));
+            return self.round();
+        };
+        let plan = self.plan.as_ref()?;
+        let merits = [now, found.as_ref().unwrap_or(now)].map(|of| self.merit(of));
+        let allowed = ROUNDED * merits[0].abs() - ENOUGH * self.share * plan.gain;
+        if found.is_some() && merits[1] - merits[0] <= allowed {
+            let next = found?;
+            let idle = (merits[0] - merits[1]).abs() <= ROUNDED * merits[0].abs();
+            self.learn(&next);
+            self.now = Some((self.at.clone(), next));
+            if idle {
+                return self.rest(Ending::Best);
+            }
+            self.fresh = false;
+            return self.advance();
+        }
+        // the least of the parabola through both merits
+        let bent = merits[1] - merits[0] + self.share * plan.gain;
+        let least = 0.5 * self.share * plan.gain / bent;
+        self.share *= if found.is_some() { least.clamp(0.1, 0.5) } else { AWAY };
+        match self.share < SHORTEST {
+            true => self.rest(Ending::Corner),
+            false => self.trial(),
+        }
+    }
+
+    /// The objective with a price for each excess, as parts of the size of the objective.
+    fn merit(&self, of: &Known) -> f64 {
+        let excess = of.room.iter().zip(&self.penalties).map(|(room, by)| by * (-room).max(0.0));
+        of.value / self.size + excess.sum::<f64>()
+    }
+
+    /// Ends a round, and the search if it gained nothing.
+    fn rest(&mut self, ending: Ending) -> Option<Ending> {
+        match self.fresh {
+            true => Some(ending),
+            false => self.round().map(|_| ending),
+        }
+    }
+
+    /// Begins a round, whose curvature is that of the scales of the unknowns: the objective and the limits change by
+    /// their size at most over each.
+    fn round(&mut self) -> Option<Ending> {
+        let (_, now) = self.now.as_ref()?;
+        let n = now.slope.len();
+        let gained = self.before - now.value;
+        if self.rounds == ROUNDS || (self.rounds > 0 && gained.abs() <= WORTH * now.value.abs()) {
+            return Some(Ending::Best);
+        }
+        self.rounds += 1;
+        (self.before, self.fresh) = (now.value, true);
+        self.inverse = vec![0.0; n * n];
+        for k in 0..n {
+            let rooms = now.room_slopes.iter().map(|row| row[k].abs());
+            let steepest = rooms.fold((now.slope[k] / self.size).abs().max(1.0), f64::max);
+            self.inverse[k * n + k] = steepest.powi(-2);
+        }
+        self.advance()
+    }
+
+    /// Plans the step from the present point.
+    fn advance(&mut self) -> Option<Ending> {
+        let (at, now) = self.now.as_ref()?;
+        let n = at.len();
+        let slope: Vec<f64> = now.slope.iter().map(|x| x / self.size).collect();
+        let unit = |k: usize, sign: f64| (0..n).map(|j| if j == k { sign } else { 0.0 }).collect();
+        let own = now.room_slopes.iter().cloned().zip(now.room.iter().copied());
+        let bounds = (0..n).flat_map(|k| [(unit(k, 1.0), at[k]), (unit(k, -1.0), 1.0 - at[k])]);
+        let limits: Vec<(Vec<f64>, f64)> = own.chain(bounds).collect();
+        let (step, factors) = step(&self.inverse, &slope, &limits);
+        let mut curved: Vec<f64> = slope.iter().map(|x| -x).collect();
+        for ((row, _), factor) in limits.iter().zip(&factors) {
+            curved.iter_mut().zip(row).for_each(|(x, by)| *x += factor * by);
+        }
+        for (penalty, factor) in self.penalties.iter_mut().zip(&factors) {
+            *penalty = factor.max(0.5 * (*penalty + factor));
+        }
+        let price = now.room.iter().zip(&self.penalties).map(|(room, by)| by * (-room).max(0.0));
+        let gain = price.sum::<f64>() - dot(&slope, &step);
+        self.factors = factors;
+        self.plan = Some(Plan { step, curved, gain });
+        let scale = (now.value / self.size).abs();
+        if gain <= GAIN * scale || !gain.is_finite() {
+            return self.rest(Ending::Best);
+        }
+        self.share = 1.0;
+        self.trial()
+    }
+
+    /// The next point to compute.
+    fn trial(&mut self) -> Option<Ending> {
+        if self.points >= MOST {
+            return Some(Ending::Enough);
+        }
+        let ((at, _), plan) = (self.now.as_ref()?, self.plan.as_ref()?);
+        let ends = at.iter().zip(&plan.step);
+        self.at = ends.map(|(x, dx)| snapped(x + self.share * dx)).collect();
+        None
+    }
+
+    /// Takes up the curvature of the Lagrangian along the last step.
+    fn learn(&mut self, next: &Known) {
+        let (Some((at, now)), Some(plan)) = (&self.now, &self.plan) else { return };
+        let n = at.len();
+        let by: Vec<f64> = self.at.iter().zip(at).map(|(a, b)| a - b).collect();
+        let curved: Vec<f64> = plan.curved.iter().map(|x| self.share * x).collect();
+        let lagrangian = |of: &Known, k: usize| {
+            let rows = of.room_slopes.iter().zip(&self.factors);
+            of.slope[k] / self.size - rows.map(|(row, factor)| factor * row[k]).sum::<f64>()
+        };
+        let mut change: Vec<f64> =
+            (0..n).map(|k| lagrangian(next, k) - lagrangian(now, k)).collect();
+        let (own, shown) = (dot(&by, &curved), dot(&by, &change));
+        if own <= 0.0 || own.is_nan() {
+            return;
+        }
+        if shown < DAMPED * own {
+            let share = (1.0 - DAMPED) * own / (own - shown);
+            let mixed = change.iter().zip(&curved).map(|(y, b)| share * y + (1.0 - share) * b);
+            change = mixed.collect();
+        }
+        let rate = 1.0 / dot(&by, &change);
+        let turned = times(&self.inverse, &change);
+        let both = rate * (1.0 + rate * dot(&change, &turned));
+        for i in 0..n {
+            for j in 0..n {
+                self.inverse[i * n + j] +=
+                    both * by[i] * by[j] - rate * (turned[i] * by[j] + by[i] * turned[j]);
+            }
+        }
+    }
+}
+
+/// A coordinate within the unit cube, on its face if it is there but for rounding errors.
+fn snapped(x: f64) -> f64 {
+    let near = |face: f64| (x - face).abs() < 1e-9;
+    match x {
+        _ if x < 0.0 || near(0.0) => 0.0,
+        _ if x > 1.0 || near(1.0) => 1.0,
+        _ => x,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An objective and its limits over unknowns in some units, by differences of high order.
+    struct Task<'a> {
+        least: &'a [f64],
+        largest: &'a [f64],
+        of: &'a dyn Fn(&[f64]) -> Option<Vec<f64>>,
+    }
+
+    impl Task<'_> {
+        fn at(&self, shares: &[f64]) -> Vec<f64> {
+            let ends = self.least.iter().zip(self.largest).zip(shares);
+            ends.map(|((low, high), share)| low + share * (high - low)).collect()
+        }
+
+        fn known(&self, shares: &[f64]) -> Option<Known> {
+            let values = (self.of)(&self.at(shares))?;
+            let by = |k: usize| {
+                let beside = |step: f64| {
+                    let mut moved = self.at(shares);
+                    moved[k] += step * (self.largest[k] - self.least[k]);
+                    (self.of)(&moved)
+                };
+                let all = [1e-3, -1e-3, 2e-3, -2e-3].map(beside);
+                let [a, b, c, d] = all.map(|one| one.unwrap_or_else(|| values.clone()));
+                let rate = |j: usize| (8.0 * (a[j] - b[j]) - (c[j] - d[j])) / 12e-3;
+                (0..values.len()).map(rate).collect::<Vec<f64>>()
+            };
+            let columns: Vec<Vec<f64>> = (0..shares.len()).map(by).collect();
+            let row = |j: usize| columns.iter().map(|column| column[j]).collect::<Vec<f64>>();
+            Some(Known {
+                value: values[0],
+                slope: row(0),
+                room: values[1..].to_vec(),
+                room_slopes: (1..values.len()).map(row).collect(),
+            })
+        }
+
+        fn solved(&self, start: &[f64]) -> (Vec<f64>, f64, Ending, usize) {
+            let ends = self.least.iter().zip(self.largest).zip(start);
+            let shares = ends.map(|((low, high), x)| (x - low) / (high - low)).collect();
+            let mut search = Descent::new(shares);
+            let mut points = 0;
+            let end = loop {
+                points += 1;
+                let found = self.known(&search.point().to_vec());
+                if let Some(end) = search.take(found) {
+                    break end;
+                }
+            };
+            let (at, known) = search.best().expect("a point").clone();
+            (self.at(&at), known.value, end, points)
+        }
+    }
+
+    fn near(found: &[f64], wanted: &[f64], within: f64) {
+        let apart = found.iter().zip(wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(apart < within, "{found:?} is not {wanted:?}");
+    }
+
+    /// Rosen and Suzuki's problem, number 43 of Hock and Schittkowski (1981), times a factor.
+    fn rosen_suzuki(x: &[f64], times: f64) -> Vec<f64> {
+        let squares: Vec<f64> = x.iter().map(|x| x * x).collect();
+        let f = squares[0] + squares[1] + 2.0 * squares[2] + squares[3];
+        let sum = squares.iter().sum::<f64>();
+        vec![
+            times * (f - 5.0 * x[0] - 5.0 * x[1] - 21.0 * x[2] + 7.0 * x[3]),
+            8.0 - sum - x[0] + x[1] - x[2] + x[3],
+            10.0 - sum - squares[1] - squares[3] + x[0] + x[3],
+            5.0 - 2.0 * squares[0] - squares[1] - squares[2] - 2.0 * x[0] + x[1] + x[3],
+        ]
+    }
+
+    #[test]
+    fn known_optima_are_found_whatever_the_unit_of_the_objective() {
+        for times in [1e-9, 1.0, 1e9] {
+            let of = |x: &[f64]| Some(rosen_suzuki(x, times));
+            let task = Task { least: &[-3.0; 4], largest: &[4.0; 4], of: &of };
+            let (x, value, end, points) = task.solved(&[0.0; 4]);
+            near(&x, &[0.0, 1.0, 2.0, -1.0], 1e-7);
+            assert!((value / times + 44.0).abs() < 1e-7, "{value}");
+            assert!(end == Ending::Best && points < 60, "{end:?} after {points}");
+        }
+    }
+
+    #[test]
+    fn a_curved_valley_ends_at_its_bottom_or_at_a_bound() {
+        let valley =
+            |x: &[f64]| Some(vec![100.0 * (x[1] - x[0] * x[0]).powi(2) + (1.0 - x[0]).powi(2)]);
+        let task = Task { least: &[-2.0, -1.0], largest: &[3.0, 4.0], of: &valley };
+        let (x, ..) = task.solved(&[-1.2, 1.0]);
+        near(&x, &[1.0, 1.0], 1e-6);
+        let bounded = Task { least: &[-2.0, -1.0], largest: &[0.5, 4.0], of: &valley };
+        let (x, ..) = bounded.solved(&[-1.2, 1.0]);
+        near(&x, &[0.5, 0.25], 1e-8);
+        assert_eq!(x[0], 0.5);
+    }
+
+    #[test]
+    fn places_without_a_value_are_walls() {
+        let of = |x: &[f64]| (x[0] > 0.2).then(|| vec![(x[0] - 0.3).powi(2) + x[1] * x[1]]);
+        let task = Task { least: &[-50.0, -50.0], largest: &[50.0, 50.0], of: &of };
+        let (x, ..) = task.solved(&[40.0, 30.0]);
+        near(&x, &[0.3, 0.0], 1e-6);
+        let (mut search, none) = (Descent::new(vec![0.5]), None);
+        assert_eq!(search.take(none), Some(Ending::NoValue));
+    }
+
+    #[test]
+    fn limits_that_contradict_are_missed_as_little_as_possible() {
+        let of = |x: &[f64]| Some(vec![x[1], x[0] - 1.0, -1.0 - x[0]]);
+        let task = Task { least: &[-4.0, -4.0], largest: &[4.0, 4.0], of: &of };
+        let (x, ..) = task.solved(&[3.0, 2.0]);
+        assert!(x[0].abs() < 0.1, "{x:?}");
+    }
+}
