@@ -64,6 +64,20 @@ export const exercise = {
   name: "Name",
   save: "Save the result",
   saveHint: "A file with your answers, which you send",
+  add: "Add a question",
+  newText: "How large is it?",
+  introduction: "Task",
+  remove: (name: string) => `Delete ${name}`,
+  keys: {
+    text: "question",
+    hints: "hints, with | between",
+    measure: "measure",
+    quantity: "quantity",
+    unit: "unit",
+    at: "at",
+    tolerance: "tolerance",
+    points: "points",
+  },
 } as const;
 
 export const design = {

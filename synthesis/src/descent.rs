@@ -2,7 +2,7 @@
 //! Fletcher, Goldfarb and Shanno, damped as Powell (1978) proposes, and Han's line search (1977). The caller computes the
 //! points, so that it can stop after each.
 
-use super::quadratic::{dot, step, times};
+use super::quadratic::{add, dot, step, times};
 
 /// Most points of a search, and rounds with a new scale.
 const MOST: usize = 300;
@@ -48,8 +48,9 @@ impl Known {
 
     /// Whether all numbers are finite.
     pub fn is_finite(&self) -> bool {
-        let of_room = self.room.iter().chain(self.room_slopes.iter().flatten());
-        of_room.chain(&self.slope).chain([&self.value]).all(|x| x.is_finite())
+        let all = |row: &[f64]| row.iter().all(|x| x.is_finite());
+        let rows = self.room_slopes.iter().all(|row| all(row));
+        rows && all(&self.room) && all(&self.slope) && self.value.is_finite()
     }
 
     fn is_better(&self, other: &Self) -> bool {
@@ -174,8 +175,11 @@ impl Descent {
 
     /// The objective with a price for each excess, as parts of the size of the objective.
     fn merit(&self, of: &Known) -> f64 {
-        let excess = of.room.iter().zip(&self.penalties).map(|(room, by)| by * (-room).max(0.0));
-        of.value / self.size + excess.sum::<f64>()
+        let mut merit = of.value / self.size;
+        for (room, by) in of.room.iter().zip(&self.penalties) {
+            merit += by * (-room).max(0.0);
+        }
+        merit
     }
 
     /// Ends a round, and the search if it gained nothing.
@@ -199,8 +203,8 @@ impl Descent {
         (self.before, self.fresh) = (now.value, true);
         self.inverse = vec![0.0; n * n];
         for k in 0..n {
-            let rooms = now.room_slopes.iter().map(|row| row[k].abs());
-            let steepest = rooms.fold((now.slope[k] / self.size).abs().max(1.0), f64::max);
+            let mut steepest = (now.slope[k] / self.size).abs().max(1.0);
+            now.room_slopes.iter().for_each(|row| steepest = steepest.max(row[k].abs()));
             self.inverse[k * n + k] = steepest.powi(-2);
         }
         self.advance()
@@ -210,21 +214,28 @@ impl Descent {
     fn advance(&mut self) -> Option<Ending> {
         let (at, now) = self.now.as_ref()?;
         let n = at.len();
-        let slope: Vec<f64> = now.slope.iter().map(|x| x / self.size).collect();
-        let unit = |k: usize, sign: f64| (0..n).map(|j| if j == k { sign } else { 0.0 }).collect();
-        let own = now.room_slopes.iter().cloned().zip(now.room.iter().copied());
-        let bounds = (0..n).flat_map(|k| [(unit(k, 1.0), at[k]), (unit(k, -1.0), 1.0 - at[k])]);
-        let limits: Vec<(Vec<f64>, f64)> = own.chain(bounds).collect();
-        let (step, factors) = step(&self.inverse, &slope, &limits);
-        let mut curved: Vec<f64> = slope.iter().map(|x| -x).collect();
-        for ((row, _), factor) in limits.iter().zip(&factors) {
-            curved.iter_mut().zip(row).for_each(|(x, by)| *x += factor * by);
+        let mut slope = vec![0.0; n];
+        add(&mut slope, 1.0 / self.size, &now.slope);
+        let (mut rows, mut room) = (now.room_slopes.clone(), now.room.clone());
+        for k in 0..n {
+            for (sign, left) in [(1.0, at[k]), (-1.0, 1.0 - at[k])] {
+                let mut row = vec![0.0; n];
+                row[k] = sign;
+                rows.push(row);
+                room.push(left);
+            }
         }
-        for (penalty, factor) in self.penalties.iter_mut().zip(&factors) {
-            *penalty = factor.max(0.5 * (*penalty + factor));
+        let (step, factors) = step(&self.inverse, &slope, &rows, &room);
+        let mut curved = vec![0.0; n];
+        add(&mut curved, -1.0, &slope);
+        for (row, factor) in rows.iter().zip(&factors) {
+            add(&mut curved, *factor, row);
         }
-        let price = now.room.iter().zip(&self.penalties).map(|(room, by)| by * (-room).max(0.0));
-        let gain = price.sum::<f64>() - dot(&slope, &step);
+        let mut gain = -dot(&slope, &step);
+        for (k, penalty) in self.penalties.iter_mut().enumerate() {
+            *penalty = factors[k].max(0.5 * (*penalty + factors[k]));
+            gain += *penalty * (-room[k]).max(0.0);
+        }
         self.factors = factors;
         self.plan = Some(Plan { step, curved, gain });
         let scale = (now.value / self.size).abs();
@@ -241,8 +252,10 @@ impl Descent {
             return Some(Ending::Enough);
         }
         let ((at, _), plan) = (self.now.as_ref()?, self.plan.as_ref()?);
-        let ends = at.iter().zip(&plan.step);
-        self.at = ends.map(|(x, dx)| snapped(x + self.share * dx)).collect();
+        let mut next = at.clone();
+        add(&mut next, self.share, &plan.step);
+        next.iter_mut().for_each(|x| *x = snapped(*x));
+        self.at = next;
         None
     }
 
@@ -250,22 +263,24 @@ impl Descent {
     fn learn(&mut self, next: &Known) {
         let (Some((at, now)), Some(plan)) = (&self.now, &self.plan) else { return };
         let n = at.len();
-        let by: Vec<f64> = self.at.iter().zip(at).map(|(a, b)| a - b).collect();
-        let curved: Vec<f64> = plan.curved.iter().map(|x| self.share * x).collect();
-        let lagrangian = |of: &Known, k: usize| {
-            let rows = of.room_slopes.iter().zip(&self.factors);
-            of.slope[k] / self.size - rows.map(|(row, factor)| factor * row[k]).sum::<f64>()
-        };
-        let mut change: Vec<f64> =
-            (0..n).map(|k| lagrangian(next, k) - lagrangian(now, k)).collect();
-        let (own, shown) = (dot(&by, &curved), dot(&by, &change));
+        let mut by = self.at.clone();
+        add(&mut by, -1.0, at);
+        let mut change = vec![0.0; n];
+        for (of, sign) in [(next, 1.0), (now, -1.0)] {
+            add(&mut change, sign / self.size, &of.slope);
+            for (row, factor) in of.room_slopes.iter().zip(&self.factors) {
+                add(&mut change, -sign * factor, row);
+            }
+        }
+        let own = self.share * dot(&by, &plan.curved);
+        let shown = dot(&by, &change);
         if own <= 0.0 || own.is_nan() {
             return;
         }
         if shown < DAMPED * own {
             let share = (1.0 - DAMPED) * own / (own - shown);
-            let mixed = change.iter().zip(&curved).map(|(y, b)| share * y + (1.0 - share) * b);
-            change = mixed.collect();
+            change.iter_mut().for_each(|y| *y *= share);
+            add(&mut change, (1.0 - share) * self.share, &plan.curved);
         }
         let rate = 1.0 / dot(&by, &change);
         let turned = times(&self.inverse, &change);

@@ -66,7 +66,7 @@ def test_the_spring_of_a_garage_door_is_improved_by_mouse(studio: Opener, tmp_pa
     for name, ends in ENDS.items():
         vary(hands, name, *ends)
     assert "Nothing better is near." in ended(hands)
-    assert numbers(one)[0].startswith("183")
+    assert numbers(one)[0].startswith("182.5 N → 42.99 N")
     assert "is reached" in numbers(one)[-1]
     assert one.page.locator("#improved dd", has_text="its bound").count() == 2
     after = saved(one, tmp_path)
@@ -131,16 +131,19 @@ def test_the_numbers_are_those_of_python(
 
 
 def test_a_lamp_is_balanced(studio: Opener, tmp_path: Path) -> None:
-    text = (EXAMPLES / "balanced_lamp.toml").read_text("utf-8")
-    text = text.replace('"9.81*(head + bar)*arm/(a*b)" ', '"600 N/m"').replace(
-        "push = 0.5", "push = 0"
-    )
+    page = (Path(__file__).parents[2] / "docs" / "optimization.md").read_text("utf-8")
+    text = re.search(r"```toml\n(.*?)\[optimize\]", page, re.S)[1]  # type: ignore[index]
     one, hands = opened(studio, text)
-    ask(hands, "arm.omega.peak")
-    vary(hands, "k", "300", "900")
-    ended(hands)
-    wanted = 9.81 * (0.8 + 0.25) * 0.4 / (0.09 * 0.12)
-    assert saved(one, tmp_path).model.parameters["k"] == pytest.approx(wanted, rel=1e-4)
+    ask(hands, "over.effort.rms", limits="h <= 250 mm\nspring.force.peak <= 60")
+    vary(hands, "k", "50", "2000")
+    vary(hands, "h", "0.05", "0.3")
+    assert "Nothing better is near." in ended(hands)
+    assert numbers(one)[0].endswith("→ 0.2072 N·m")
+    assert [number for number in numbers(one) if "reached" in number] == ["is reached"] * 2
+    after = saved(one, tmp_path)
+    best = kp.optimize(after)
+    for name, value in best.values.items():
+        assert after.model.parameters[name] == pytest.approx(value, rel=1e-6), name
 
 
 def test_a_search_can_be_cancelled_and_its_task_is_read_again(studio: Opener) -> None:

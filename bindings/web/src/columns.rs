@@ -201,24 +201,31 @@ pub fn with_slopes(
     let n = row.len();
     for (k, [least, largest]) in ends.iter().enumerate() {
         for change in CHANGES {
-            let missing = |j: &usize| jacobian[j * n + k].is_nan();
-            let missing: Vec<usize> = (0..values.len()).filter(missing).collect();
-            if missing.is_empty() {
+            let none = |j: usize| jacobian[j * n + k].is_nan();
+            if !(0..values.len()).any(none) {
                 break;
             }
-            let beside = [change, -change].map(|change| {
-                let x = row[k].1 + change * (largest - least);
+            let beside = |change: f64| {
                 let mut row = row.to_vec();
-                row[k].1 = x.clamp(*least, *largest);
-                (row[k].1, sweep.variants(&[(row, Vec::new())], &|| false).remove(0))
-            });
-            let [(up, high), (down, low)] = beside.map(|(x, outcome)| match outcome {
-                Outcome::Values(values) => (x, values),
-                _ => (row[k].1, values.clone()),
-            });
-            for j in missing {
-                jacobian[j * n + k] = (high[j] - low[j]) / (up - down);
+                row[k].1 = (row[k].1 + change * (largest - least)).clamp(*least, *largest);
+                match sweep.variants(&[(row.clone(), Vec::new())], &|| false).pop() {
+                    Some(Outcome::Values(values)) => Some((row[k].1, values)),
+                    _ => None,
+                }
+            };
+            let here = || (row[k].1, values.clone());
+            let (up, high) = beside(change).unwrap_or_else(here);
+            let (down, low) = beside(-change).unwrap_or_else(here);
+            for j in 0..values.len() {
+                let slope = &mut jacobian[j * n + k];
+                if slope.is_nan() {
+                    *slope = (high[j] - low[j]) / (up - down);
+                }
             }
+        }
+        if !values.is_empty() && (0..values.len()).all(|j| jacobian[j * n + k].is_nan()) {
+            let name = &row[k].0;
+            return Err(Fault::new(format!("{name} cannot be changed a little")));
         }
     }
     Ok((values, jacobian))

@@ -216,13 +216,14 @@ export interface Search {
   /** Why a run failed. */
   reason: string | null;
   ending: "best" | "corner" | "enough" | null;
+  /** The objective, its unit, and its value before and now. */
   label: string;
   unit: string;
   before: number | null;
-  now: number | null;
-  values: { name: string; before: number; now: number; reached: boolean }[];
-  limits: { text: string; state: "holds" | "reached" | "missed" }[];
-  changes: Change[];
+  now: number;
+  values: Record<string, number>;
+  /** The room of each limit, as a part of the size of what it compares. */
+  room: number[];
 }
 
 /** The answer to the section [synthesis]. */

@@ -1,7 +1,7 @@
 // Improve: the core searches the values of ticked parameters that make a number best; each run is a request of its own.
 import { computed, effect, signal } from "@preact/signals";
 import { isTable } from "../catalogue/tree";
-import type { Body, Change, Search, Tree, Value } from "../core/protocol";
+import type { Body, Change, Parameter, Search, Tree, Value } from "../core/protocol";
 import { CoreError } from "../core/transport";
 import type { Placement } from "../plane/points";
 import { change, undo } from "../store/document";
@@ -26,7 +26,7 @@ export const fault = signal("");
 /** The last search, while its numbers are those of the text or it goes on. */
 export const found = signal<Search | null>(null);
 /** The mechanism before the search, for comparison. */
-export const before = signal<{ bodies: Body[]; poses: readonly Placement[] } | null>(null);
+export const before = signal<{ bodies: Body[]; poses: readonly Placement[]; parameters: Parameter[] } | null>(null);
 
 /** The section, as it is written. */
 const section = computed<Tree>(() => (isTable(tree.value?.optimize) ? tree.value.optimize : {}));
@@ -104,7 +104,8 @@ export async function improve(): Promise<void> {
   if (lacks || !(await written())) return;
   busy.value = true;
   const of = loads.value;
-  const old = { bodies: mechanism.value?.bodies ?? [], poses: poses.value };
+  const { bodies, parameters } = mechanism.value!;
+  before.value = { bodies, parameters, poses: poses.value };
   try {
     found.value = (await send("optimize", {})).ok;
     while (busy.value && !found.value.ending && loads.value === of) found.value = (await send("improve", {})).ok;
@@ -119,8 +120,21 @@ export async function improve(): Promise<void> {
   const last: Search | null = found.value;
   if (loads.value !== of) fault.value = texts.improve.changed;
   const given = text.value;
-  if (fault.value || !last || !(await change(last.changes))) return dismiss();
-  [improved, before.value, moved] = [text.value, old, text.value !== given];
+  const pairs = Object.entries(last?.values ?? {});
+  const changes = pairs.map(([name, to]) => ({ path: ["parameters", name], value: rewritten(name, to, 17) }));
+  if (fault.value || !(await change(changes))) return dismiss();
+  [improved, moved] = [text.value, text.value !== given];
+}
+
+/** The value of a parameter as it is written: a number in SI units, or with the unit that the text has. */
+export function rewritten(name: string, value: number, digits: number): string | number {
+  const written = (tree.value?.parameters as Tree | undefined)?.[name];
+  const text = typeof written === "string" ? written : "";
+  const unit = /^\s*[-+]?[\d.]+(?:e[-+]?\d+)?\s*([^\d\s*/+-].*)$/i.exec(text)?.[1];
+  const rounded = (x: number) => Number(x.toPrecision(digits));
+  const factor = mechanism.value?.parameters.find((one) => one.name === name)?.value;
+  const number = Number.parseFloat(text);
+  return unit && factor && number ? `${rounded((value * number) / factor)} ${unit}` : rounded(value);
 }
 
 /** Write the section; false if the core does not accept it. */

@@ -74,8 +74,8 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
     if (!bare) paintSelection(context, colours);
     if (!bare)
       for (const at of blamed.value.flatMap(placesOfPart)) paintRing(context, view, at, colours, 18, "problem");
-    paintBefore(context, colours);
     const names = paintItems(context, view, items.value, poses.value, shown.value, colours);
+    paintBefore(context, colours);
     if (!items.value.length) paintLinks(context, view, found.bodies, poses.value, colours);
     if (editing && mode.value === "edit") paintHandles(context, view, loosePoints(), colours);
     names.push(...paintNotes(context, notes.value, colours));
@@ -95,9 +95,13 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
 function paintBefore(context: CanvasRenderingContext2D, colours: Colours): void {
   if (!before.value) return;
   context.save();
-  context.globalAlpha = 0.35;
+  const { bodies, poses: places } = before.value;
+  context.globalAlpha = 0.45;
   context.setLineDash([8, 6]);
-  paintLinks(context, view, before.value.bodies, before.value.poses, colours);
+  paintLinks(context, view, bodies, places, colours);
+  context.setLineDash([]);
+  const pairs = bodies.flatMap(({ points: of }, k) => Object.values(of).map((at) => placed(places[k]!, at)));
+  paintHandles(context, view, pairs, colours);
   context.restore();
 }
 

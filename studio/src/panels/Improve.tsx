@@ -4,6 +4,8 @@ import {
   AIMS,
   type Aim,
   aim,
+  before,
+  bounds,
   busy,
   cancel,
   discard,
@@ -15,7 +17,6 @@ import {
   starts,
   wanted,
 } from "../design/improve";
-import { mechanism } from "../store/state";
 import { texts } from "../texts";
 import { Button, Facts } from "./parts";
 import { shown } from "./Readings";
@@ -89,18 +90,24 @@ function state({ runs, failed, ending, reason }: Search): string {
   return parts.join(" ");
 }
 
+/** Part of the size of a limit within which it is reached. */
+const REACHED = 1e-6;
+
 /** The numbers before and after, the limits, and the choice between them. */
-function Comparison({ label, unit, before, now, values, limits: all }: Search) {
+function Comparison({ label, unit, before: first, now, values, room }: Search) {
   const words = texts.improve;
-  const unitOf = (name: string) => mechanism.value?.parameters.find((one) => one.name === name)?.unit ?? "";
-  const rows: [string, string][] = [
-    [label, words.change(shown(before, unit), shown(now, unit))],
-    ...values.map(({ name, before: from, now: to, reached }): [string, string] => [
-      name,
-      words.change(shown(from, unitOf(name)), shown(to, unitOf(name))) + (reached ? ` ${words.bound}` : ""),
-    ]),
-    ...all.map(({ text, state: of }): [string, string] => [text, words.states[of]]),
-  ];
+  const lines = limits.value.split("\n").filter((line) => line.trim());
+  const of = (value: number) => words.states[value < -REACHED ? "missed" : value < REACHED ? "reached" : "holds"];
+  const rows: [string, string][] = [[label, words.change(shown(first, unit), shown(now, unit))]];
+  for (const { name, value, unit: own } of before.value?.parameters ?? []) {
+    const to = values[name];
+    if (to === undefined) continue;
+    const told = words.change(shown(value, own ?? ""), shown(to, own ?? ""));
+    rows.push([name, bounds.value[name]?.includes(to) ? `${told} ${words.bound}` : told]);
+  }
+  room.forEach((value, k) => {
+    rows.push([lines[k] ?? "", of(value)]);
+  });
   return (
     <div id="improved">
       <Facts rows={rows} />

@@ -2,7 +2,7 @@
 import { effect, signal } from "@preact/signals";
 import type { Tree } from "../core/protocol";
 import { CoreError } from "../core/transport";
-import { bounds, measure } from "../design/improve";
+import { bounds, measure, rewritten } from "../design/improve";
 import { displayed } from "../draw/display";
 import { minus, significant } from "../draw/numbers";
 import { Draft } from "../store/document";
@@ -119,18 +119,6 @@ interface SliderProps {
 
 let draft: Draft | null = null;
 
-/** The value as it is written: a number in SI units, or with the unit that the text has. */
-function rewritten(name: string, value: number): string | number {
-  const before = (tree.value?.parameters as Tree | undefined)?.[name];
-  const unit =
-    typeof before === "string" ? /^\s*[-+]?[\d.]+(?:e[-+]?\d+)?\s*([^\d\s*/+-].*)$/i.exec(before)?.[1] : undefined;
-  const rounded = (x: number) => Number(x.toPrecision(4));
-  const factor = mechanism.value?.parameters.find((one) => one.name === name)?.value;
-  const number = typeof before === "string" ? Number.parseFloat(before) : Number.NaN;
-  if (unit && factor && number) return `${rounded((value * number) / factor)} ${unit}`;
-  return rounded(value);
-}
-
 /** A parameter as a slider. Its ends are typed; the text changes with it, and the drag is one step of the history. */
 function Slider({ name, value, unit, slope }: SliderProps) {
   const { factor, unit: name_of } = displayed(unit ?? "", units.value);
@@ -143,7 +131,7 @@ function Slider({ name, value, unit, slope }: SliderProps) {
     draft ??= new Draft();
     // the ends stay where they are while the value moves
     if (!own) ranges.value = { ...ranges.value, [name]: [low, high] };
-    draft.show([{ path: ["parameters", name], value: rewritten(name, to) }]);
+    draft.show([{ path: ["parameters", name], value: rewritten(name, to, 4) }]);
   };
   const keep = () => {
     void draft?.keep().catch(report);

@@ -3,9 +3,7 @@
 use super::{entry, number, refused};
 use crate::fault::Fault;
 use crate::loaded::Loaded;
-use crate::typed::typed;
 use kempe::model::Value as Written;
-use serde_json::{json, Value};
 
 /// A variable between its bounds.
 pub struct Bound {
@@ -16,7 +14,6 @@ pub struct Bound {
     log: bool,
     /// Its value in the text.
     pub before: f64,
-    written: Option<Written>,
 }
 
 impl Bound {
@@ -51,17 +48,6 @@ impl Bound {
             largest - least
         }
     }
-
-    /// A value as it is written: in the unit of the text before.
-    pub fn written(&self, x: f64) -> Value {
-        let Some(Written::Text(text)) = &self.written else { return json!(x) };
-        let rest = text.trim_start_matches(|c: char| "+-.0123456789 ".contains(c));
-        let one = Written::Text(format!("1 {rest}"));
-        match typed(&one, "", "") {
-            Ok(factor) if !rest.is_empty() => json!(format!("{} {rest}", x / factor)),
-            _ => json!(x),
-        }
-    }
 }
 
 /// The variables of the section.
@@ -69,26 +55,21 @@ pub fn bounds(loaded: &Loaded, section: &[(String, Written)]) -> Result<Vec<Boun
     let Some(Written::Table(given)) = entry(section, "variables") else {
         return Err(Fault::new("there are no variables").hint("tick a parameter that may change"));
     };
-    let one = |(name, of): &(String, Written)| {
-        let parameters = &loaded.case.definition.parameters;
-        let Some(written) = entry(parameters, name) else {
+    let mut found = Vec::new();
+    for (name, of) in given {
+        let names = &loaded.model.blueprint.parameters;
+        let Some(place) = names.iter().position(|known| known == name) else {
             return Err(refused(&format!("'{name}', which is no parameter")));
         };
         let Written::List(ends) = of else { return Err(refused("such bounds")) };
-        let [least, largest] = [0, 1].map(|k| number(ends.get(k)));
+        let (least, largest) = (number(ends.first()), number(ends.get(1)));
         let log = ends.len() > 2;
         if !(least < largest) || log && least * largest <= 0.0 {
             let message = format!("the bounds of {name} are {least} and {largest}");
             return Err(Fault::new(message).hint("the second must be larger"));
         }
-        let place = loaded.model.blueprint.parameters.iter().position(|known| known == name);
-        Ok(Bound {
-            name: name.clone(),
-            ends: [least, largest],
-            log,
-            before: place.map_or(f64::NAN, |k| loaded.model.parameters[k]),
-            written: Some(written.clone()),
-        })
-    };
-    given.iter().map(one).collect()
+        let before = loaded.model.parameters[place];
+        found.push(Bound { name: name.clone(), ends: [least, largest], log, before });
+    }
+    Ok(found)
 }

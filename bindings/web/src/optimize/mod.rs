@@ -4,16 +4,13 @@ mod bound;
 mod task;
 mod text;
 
+use crate::convert::row;
 use crate::fault::Fault;
 use crate::loaded::Loaded;
-use bound::Bound;
 use kempe::model::Value as Written;
 use kempe_synthesis::{Descent, Ending};
-use serde_json::{json, Value};
+use serde_json::{json, Map, Value};
 use task::{Seen, Task};
-
-/// Part of the size of a limit within which it is reached.
-const REACHED: f64 = 1e-6;
 
 /// What the page leaves to the command line.
 fn refused(what: &str) -> Fault {
@@ -44,10 +41,11 @@ pub struct Search {
     task: Task,
     descent: Descent,
     sizes: Vec<f64>,
-    before: Option<Seen>,
+    /// The objective of the values of the text; none if these are beyond the bounds.
+    before: Option<f64>,
+    /// The points with values.
     seen: Vec<(Vec<f64>, Seen)>,
     runs: usize,
-    failed: usize,
     reason: Option<String>,
     ending: Option<Ending>,
 }
@@ -56,28 +54,22 @@ impl Search {
     /// The search that the section of a case asks for, after its first run.
     pub fn begin(loaded: &Loaded) -> Result<Self, Fault> {
         let task = Task::read(loaded)?;
-        let start: Vec<f64> = task.bounds.iter().map(|of| of.share(of.before)).collect();
-        let within = task.bounds.iter().all(|Bound { before, ends: [least, largest], .. }| {
-            (least..=largest).contains(&before)
-        });
-        let mut search = Self {
-            task,
-            descent: Descent::new(start),
-            sizes: Vec::new(),
-            before: None,
-            seen: Vec::new(),
-            runs: 0,
-            failed: 0,
-            reason: None,
-            ending: None,
-        };
-        search.advance();
-        if search.ending == Some(Ending::NoValue) {
-            let reason = search.reason.unwrap_or_default();
-            return Err(Fault::new(reason).hint("begin with values for which the analysis runs"));
+        let (mut start, mut within) = (Vec::new(), true);
+        for of in &task.bounds {
+            start.push(of.share(of.before));
+            within &= of.ends[0] <= of.before && of.before <= of.ends[1];
         }
-        if within {
-            search.before = search.seen.first().map(|(_, seen)| seen.clone());
+        let (descent, sizes, seen) = (Descent::new(start), Vec::new(), Vec::new());
+        let none = (None, None, None);
+        let (before, reason, ending) = none;
+        let mut search = Self { task, descent, sizes, before, seen, runs: 0, reason, ending };
+        search.advance();
+        match search.seen.first() {
+            Some((_, first)) => search.before = within.then_some(first.objective),
+            None => {
+                let hint = "begin with values for which the analysis runs";
+                return Err(Fault::new(search.reason.unwrap_or_default()).hint(hint));
+            }
         }
         Ok(search)
     }
@@ -89,13 +81,13 @@ impl Search {
         }
         let point = self.descent.point().to_vec();
         self.runs += 1;
-        let known = match self.task.run(&point, &mut self.sizes) {
+        let found = self.task.run(&point, &mut self.sizes);
+        let known = match found {
             Ok((known, seen)) => {
                 self.seen.push((point, seen));
                 Some(known)
             }
             Err(fault) => {
-                self.failed += 1;
                 self.reason = Some(fault.message);
                 None
             }
@@ -106,42 +98,23 @@ impl Search {
     /// The search for a page; `bindings/web/README.md` describes it.
     pub fn described(&self) -> Value {
         let best = self.descent.best().map(|(at, _)| at);
-        let seen = best.and_then(|best| self.seen.iter().rev().find(|(at, _)| at == best));
-        let shares = best.map_or(&[][..], |at| at);
-        let values = self.task.bounds.iter().zip(shares).map(|(of, share)| {
-            let x = of.at(*share);
-            let reached = of.ends.contains(&x);
-            json!({ "name": of.name, "before": of.before, "now": x, "reached": reached })
-        });
-        let changes = self.task.bounds.iter().zip(shares).map(|(of, share)| {
-            let value = of.written(of.at(*share));
-            json!({ "path": ["parameters", of.name], "value": value })
-        });
-        let limits = self.task.limits.iter().zip(seen.map_or(&[][..], |(_, seen)| &seen.room));
-        let limits = limits.map(|(text, room)| {
-            let state = match room {
-                room if *room < -REACHED => "missed",
-                room if *room < REACHED => "reached",
-                _ => "holds",
-            };
-            json!({ "text": text, "state": state })
+        let seen = self.seen.iter().rev().find(|(at, _)| Some(at) == best);
+        let mut values = Map::new();
+        if let Some((shares, _)) = seen {
+            for (of, share) in self.task.bounds.iter().zip(shares) {
+                values.insert(of.name.clone(), json!(of.at(*share)));
+            }
+        }
+        let ending = self.ending.map(|ending| match ending {
+            Ending::Best => "best",
+            Ending::Corner => "corner",
+            Ending::NoValue | Ending::Enough => "enough",
         });
         json!({
-            "runs": self.runs,
-            "failed": self.failed,
-            "reason": self.reason,
-            "ending": self.ending.map(|ending| match ending {
-                Ending::Best => "best",
-                Ending::Corner => "corner",
-                Ending::NoValue | Ending::Enough => "enough",
-            }),
-            "label": self.task.label,
-            "unit": self.task.unit,
-            "before": self.before.as_ref().map(|seen| seen.objective),
-            "now": seen.map(|(_, seen)| seen.objective),
-            "values": values.collect::<Vec<_>>(),
-            "limits": limits.collect::<Vec<_>>(),
-            "changes": changes.collect::<Vec<_>>(),
+            "runs": self.runs, "failed": self.runs - self.seen.len(), "reason": self.reason,
+            "ending": ending, "label": self.task.label, "unit": self.task.unit,
+            "before": self.before, "now": seen.map(|(_, seen)| seen.objective),
+            "values": values, "room": seen.map(|(_, seen)| row(&seen.room)),
         })
     }
 }

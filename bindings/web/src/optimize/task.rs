@@ -37,8 +37,8 @@ pub struct Task {
     pub label: String,
     /// Its SI unit.
     pub unit: String,
-    /// The texts of the limits.
-    pub limits: Vec<String>,
+    /// The number of limits.
+    limits: usize,
 }
 
 /// A value and its derivatives by the variables, later by their shares.
@@ -141,15 +141,17 @@ impl Task {
             (_, [name, ..]) if **name == *label => unit(&loaded.case, &model, name),
             _ => formulas.inferred()[first].unit().unwrap_or_default(),
         };
-        let limits = limits.into_iter().map(str::to_string).collect();
-        Ok(Self { bounds, columns: names.len(), sweep, formulas, aim, label, unit, limits })
+        let (columns, limits) = (names.len(), limits.len());
+        Ok(Self { bounds, columns, sweep, formulas, aim, label, unit, limits })
     }
 
     /// The values of all formulas at a point of the unit cube, with their derivatives by its coordinates.
     fn values(&self, shares: &[f64]) -> Result<Vec<Sloped>, Fault> {
-        let at = |(bound, share): (&Bound, &f64)| (bound.name.clone(), bound.at(*share));
-        let row: Vec<(String, f64)> = self.bounds.iter().zip(shares).map(at).collect();
-        let ends: Vec<[f64; 2]> = self.bounds.iter().map(|bound| bound.ends).collect();
+        let (mut row, mut ends) = (Vec::new(), Vec::new());
+        for (bound, share) in self.bounds.iter().zip(shares) {
+            row.push((bound.name.clone(), bound.at(*share)));
+            ends.push(bound.ends);
+        }
         let (values, slopes) = with_slopes(&self.sweep, &row, &ends)?;
         let (n, names) = (row.len(), &self.sweep.model.blueprint.formulas);
         let first = names.len() + self.columns;
@@ -158,21 +160,27 @@ impl Task {
             let given = |k: usize| -> Option<Slope> {
                 if let Some((name, _)) = names.get(k) {
                     let j = row.iter().position(|(other, _)| other == name)?;
-                    let seed = |i| f64::from(u8::from(chunk + i == j));
-                    return Some(Slope { value: row[j].1, slope: [0, 1, 2].map(seed) });
+                    let mut of = Slope { value: row[j].1, slope: [0.0; 3] };
+                    if let Some(seed) = j.checked_sub(chunk).filter(|seed| *seed < 3) {
+                        of.slope[seed] = 1.0;
+                    }
+                    return Some(of);
                 }
                 let column = Some(k - names.len()).filter(|k| *k < self.columns)?;
-                let slope = |i: usize| slopes[column * n + i];
-                let of = |i| if chunk + i < n { slope(chunk + i) } else { 0.0 };
-                let known = |x: f64| if x.is_finite() { x } else { 0.0 };
-                Some(Slope { value: values[column], slope: [0, 1, 2].map(of).map(known) })
+                let mut of = Slope { value: values[column], slope: [0.0; 3] };
+                for j in chunk..n.min(chunk + 3) {
+                    let slope = slopes[column * n + j];
+                    of.slope[j - chunk] = if slope.is_finite() { slope } else { 0.0 };
+                }
+                Some(of)
             };
             let all = self.formulas.evaluate(given);
             found.resize(all.len() - first, (0.0, Vec::new()));
             for (one, of) in found.iter_mut().zip(&all[first..]) {
                 one.0 = of.value;
-                let of = of.slope.iter().zip(&self.bounds[chunk..]).zip(&row[chunk..]);
-                one.1.extend(of.map(|((slope, bound), (_, x))| slope * bound.rate(*x)));
+                for j in chunk..n.min(chunk + 3) {
+                    one.1.push(of.slope[j - chunk] * self.bounds[j].rate(row[j].1));
+                }
             }
         }
         Ok(found)
@@ -180,49 +188,54 @@ impl Task {
 
     /// The objective itself, and what is made small.
     fn objective(&self, all: &[Sloped]) -> (f64, Sloped) {
-        let targets = match &self.aim {
+        let (mut sum, mut slope) = (0.0, vec![0.0; self.bounds.len()]);
+        let mut add = |factor: f64, by: &[f64]| {
+            slope.iter_mut().zip(by).for_each(|(of, by)| *of += factor * by);
+        };
+        match &self.aim {
             Aim::Formula { sign, square } => {
                 let (x, by) = &all[0];
-                let (value, factor) = if *square { (x * x, 2.0 * x) } else { (*x, 1.0) };
-                let slope = by.iter().map(|by| sign * factor * by).collect();
-                return (*x, (sign * value, slope));
+                let (value, rate) = if *square { (x * x, 2.0 * x) } else { (*x, 1.0) };
+                add(sign * rate, by);
+                (*x, (sign * value, slope))
             }
-            Aim::Target(targets) => targets,
-        };
-        let (mut sum, mut slope) = (0.0, vec![0.0; self.bounds.len()]);
-        for ((x, by), (wanted, size)) in all.iter().zip(targets) {
-            let apart = (x - wanted) / size;
-            let share = 1.0 / targets.len() as f64;
-            sum += share * apart * apart;
-            let rate = 2.0 * share * apart / size;
-            slope.iter_mut().zip(by).for_each(|(of, by)| *of += rate * by);
+            Aim::Target(targets) => {
+                for ((x, by), (wanted, size)) in all.iter().zip(targets) {
+                    let (apart, share) = ((x - wanted) / size, 1.0 / targets.len() as f64);
+                    sum += share * apart * apart;
+                    add(2.0 * share * apart / size, by);
+                }
+                (sum.sqrt(), (sum, slope))
+            }
         }
-        (sum.sqrt(), (sum, slope))
     }
 
     /// A run: what the search needs, and what is shown. The first run sets the sizes of the limits.
     pub fn run(&self, shares: &[f64], sizes: &mut Vec<f64>) -> Result<(Known, Seen), Fault> {
         let all = self.values(shares)?;
-        let (own, rooms) = all.split_at(all.len() - 3 * self.limits.len());
+        let (own, sides) = all.split_at(all.len() - 3 * self.limits);
         let (objective, (value, slope)) = self.objective(own);
-        let rooms: Vec<&[Sloped]> = rooms.chunks(3).collect();
-        let largest = |of: &[f64]| of.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let size = |of: &&[Sloped]| {
-            let known = [largest(&[of[0].0, of[1].0]), largest(&of[2].1), 1.0];
-            known.into_iter().find(|x| *x > 0.0).unwrap_or(1.0)
-        };
-        if sizes.is_empty() {
-            *sizes = rooms.iter().map(size).collect();
+        let mut known = Known { value, slope, room: Vec::new(), room_slopes: Vec::new() };
+        let (first, mut parts) = (sizes.is_empty(), Vec::new());
+        for (k, of) in sides.chunks(3).enumerate() {
+            let (room, by) = &of[2];
+            let steepest = by.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let mut size = of[0].0.abs().max(of[1].0.abs());
+            for other in [steepest, 1.0] {
+                size = if size > 0.0 { size } else { other };
+            }
+            if first {
+                sizes.push(size);
+            }
+            let mut by = by.clone();
+            by.iter_mut().for_each(|x| *x /= sizes[k]);
+            known.room.push(room / sizes[k]);
+            known.room_slopes.push(by);
+            parts.push(room / size);
         }
-        let part = |(of, size): (&&[Sloped], &f64)| {
-            (of[2].0 / size, of[2].1.iter().map(|x| x / size).collect::<Vec<f64>>())
-        };
-        let (room, room_slopes): (Vec<_>, Vec<_>) = rooms.iter().zip(&*sizes).map(part).unzip();
-        let known = Known { value, slope, room, room_slopes };
         if !known.is_finite() {
             return Err(Fault::new(format!("{} or a limit has no value here", self.label)));
         }
-        let seen = rooms.iter().map(|of| of[2].0 / size(of)).collect();
-        Ok((known, Seen { objective, room: seen }))
+        Ok((known, Seen { objective, room: parts }))
     }
 }
