@@ -32,7 +32,7 @@ export const improve = {
   runs: (n: number) => `${n} ${n === 1 ? "run" : "runs"}.`,
   failed: (n: number, reason: string) => `${n} of them failed: ${reason}.`,
   starts: (n: number) =>
-    `The case asks for ${n} starts; the page searches from the present values, “kempe optimize” from all.`,
+    `The case has ${n} starts; the page searches from the present values, “kempe optimize” from all.`,
   endings: {
     best: "Nothing better is near.",
     corner: "Steps hardly gain anything, as where two peaks are equally high.",

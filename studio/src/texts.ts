@@ -7,7 +7,6 @@ import { ARROWS_ON, forces, ON_ALL } from "./playerTexts";
 export * from "./playerTexts";
 
 const variable = (name: string) => (name === "t" ? "the time" : name);
-
 const NAME = "kempe studio";
 
 /** Of studio/index.html, which the build puts in. */

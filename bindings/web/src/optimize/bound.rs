@@ -59,7 +59,7 @@ pub fn bounds(loaded: &Loaded, section: &[(String, Written)]) -> Result<Vec<Boun
     for (name, of) in given {
         let names = &loaded.model.blueprint.parameters;
         let Some(place) = names.iter().position(|known| known == name) else {
-            return Err(refused(&format!("'{name}', which is no parameter")));
+            return Err(refused(&format!("'{name}', which is not a parameter")));
         };
         let Written::List(ends) = of else { return Err(refused("such bounds")) };
         let (least, largest) = (number(ends.first()), number(ends.get(1)));

@@ -51,7 +51,7 @@ pub struct Search {
 }
 
 impl Search {
-    /// The search that the section of a case asks for, after its first run.
+    /// The search of the section of a case, after its first run.
     pub fn begin(loaded: &Loaded) -> Result<Self, Fault> {
         let task = Task::read(loaded)?;
         let (mut start, mut within) = (Vec::new(), true);
