@@ -1,5 +1,6 @@
 """Improve: better values of ticked parameters by mouse, and the same values by kempe."""
 
+import math
 import re
 from pathlib import Path
 from typing import Any
@@ -198,6 +199,22 @@ def test_limits_that_cannot_hold_are_named(studio: Opener) -> None:
     one.page.locator("#vary-r").check()
     ended(hands)
     assert "is missed" in numbers(one)[-1]
+
+
+def test_differences_replace_slopes_by_formulas_of_the_analysis(
+    studio: Opener, tmp_path: Path
+) -> None:
+    text = CRANK.replace("[parameters]", "[parameters]\nend = 0.05")
+    one, hands = opened(studio, text.replace("t_end = 0.2", 't_end = "end"'))
+    ask(hands, "piston.x.final", "target")
+    one.page.locator("#target").fill("0.2")
+    one.page.locator("#vary-end").check()
+    assert "Nothing better is near." in ended(hands)
+    after = saved(one, tmp_path).model.parameters["end"]
+    # x = r cos φ + √(l² - r² sin² φ) with r = 60 mm and l = x = 200 mm: cos φ = r/(2 l)
+    assert after == pytest.approx(math.acos(0.15) / (10.0 * math.pi), rel=1e-7)
+    hands.press("#discard-improved")
+    assert after == pytest.approx(kp.optimize(saved(one, tmp_path)).values["end"], rel=1e-6)
 
 
 @pytest.mark.parametrize("size", [1e-3, 1e3])
