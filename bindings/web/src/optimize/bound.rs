@@ -64,7 +64,8 @@ pub fn bounds(loaded: &Loaded, section: &[(String, Written)]) -> Result<Vec<Boun
         let Written::List(ends) = of else { return Err(refused("such bounds")) };
         let (least, largest) = (number(ends.first()), number(ends.get(1)));
         let log = ends.len() > 2;
-        if !(least < largest) || log && least * largest <= 0.0 {
+        let ordered = least < largest; // false for what is not a number
+        if !ordered || log && least * largest <= 0.0 {
             let message = format!("the bounds of {name} are {least} and {largest}");
             return Err(Fault::new(message).hint("the second must be larger"));
         }

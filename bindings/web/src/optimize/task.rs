@@ -178,8 +178,8 @@ impl Task {
             found.resize(all.len() - first, (0.0, Vec::new()));
             for (one, of) in found.iter_mut().zip(&all[first..]) {
                 one.0 = of.value;
-                for j in chunk..n.min(chunk + 3) {
-                    one.1.push(of.slope[j - chunk] * self.bounds[j].rate(row[j].1));
+                for (slope, j) in of.slope.iter().zip(chunk..n) {
+                    one.1.push(slope * self.bounds[j].rate(row[j].1));
                 }
             }
         }
