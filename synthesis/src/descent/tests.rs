@@ -45,7 +45,7 @@ impl Task<'_> {
         let mut points = 0;
         let end = loop {
             points += 1;
-            let found = self.known(&search.point().to_vec());
+            let found = self.known(search.point());
             if let Some(end) = search.take(found) {
                 break end;
             }
