@@ -1,8 +1,10 @@
 // English texts of the design mode, of questions, and of sliders with slopes.
 
 export const slopes = {
-  title: "Sliders and slopes",
-  measure: "Number whose slopes are shown, such as C.force.max",
+  title: "Sliders, slopes and Improve",
+  measure: "Number, such as C.force.max",
+  vary: (name: string) => `${name} may change`,
+  varyHint: "Improve may change it between the ends of its slider",
   compute: "Slopes",
   busy: "Computing …",
   of: (measure: string, value: string) => `Slopes of ${measure} = ${value}`,
@@ -12,6 +14,37 @@ export const slopes = {
   least: (name: string, unit: string) => `Least ${name}${unit ? ` / ${unit}` : ""}`,
   most: (name: string, unit: string) => `Largest ${name}${unit ? ` / ${unit}` : ""}`,
   formula: "It follows from other parameters.",
+} as const;
+
+export const improve = {
+  hint: "Improve searches better values of the ticked parameters, between the ends of their sliders.",
+  aim: "Aim",
+  aims: { minimize: "as small as possible", maximize: "as large as possible", target: "equal to" },
+  target: "Value in SI units",
+  limits: "Limits, one a line, such as C.force.max <= 200 N",
+  improve: "Improve",
+  improveHint: "Search with the exact slopes; the task is written into the section [optimize]",
+  cancel: "Cancel",
+  changed: "The mechanism has changed, which ended the search.",
+  noNumber: "Type the number that should become better, such as C.force.max.",
+  noVariable: "Tick a parameter that may change.",
+  noTarget: "Type the value that the number should have.",
+  runs: (n: number) => `${n} ${n === 1 ? "run" : "runs"}.`,
+  failed: (n: number, reason: string) => `${n} of them failed: ${reason}.`,
+  starts: (n: number) =>
+    `The case has ${n} starts; the page searches from the present values, “kempe optimize” from all.`,
+  endings: {
+    best: "Nothing better is near.",
+    corner: "Steps hardly gain anything, as where two peaks are equally high.",
+    enough: "The search took too long; these are its best values.",
+    cancelled: "Cancelled; these are the best values until then.",
+  },
+  change: (before: string, now: string) => `${before} → ${now}`,
+  bound: "(its bound)",
+  states: { holds: "holds", reached: "is reached", missed: "is missed" },
+  keep: "Keep",
+  discard: "Discard",
+  discardHint: "Return to the values before; undo does the same",
 } as const;
 
 export const exercise = {
@@ -31,6 +64,20 @@ export const exercise = {
   name: "Name",
   save: "Save the result",
   saveHint: "A file with your answers, which you send",
+  add: "Add a question",
+  newText: "How large is it?",
+  introduction: "Task",
+  remove: (name: string) => `Delete ${name}`,
+  keys: {
+    text: "question",
+    hints: "hints, with | between",
+    measure: "measure",
+    quantity: "quantity",
+    unit: "unit",
+    at: "at",
+    tolerance: "tolerance",
+    points: "points",
+  },
 } as const;
 
 export const design = {

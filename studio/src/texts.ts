@@ -1,13 +1,12 @@
 // All English texts of the studio and its worker, with designTexts.ts, drawingTexts.ts and playerTexts.ts. Names of types come from the catalogue.
 import { coreTexts } from "./coreTexts";
-import { design, exercise, slopes } from "./designTexts";
+import { design, exercise, improve, slopes } from "./designTexts";
 import { atPlace, edit, labels, machines, place, stems } from "./drawingTexts";
 import { ARROWS_ON, forces, ON_ALL } from "./playerTexts";
 
 export * from "./playerTexts";
 
 const variable = (name: string) => (name === "t" ? "the time" : name);
-
 const NAME = "kempe studio";
 
 /** Of studio/index.html, which the build puts in. */
@@ -112,6 +111,7 @@ export const texts = {
     angle: "angle",
     absent: "–",
   },
+  improve,
   slopes,
   exercise,
   design,

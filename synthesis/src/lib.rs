@@ -1,31 +1,36 @@
-//! Numerics of the synthesis of linkages.
+//! Numerics of the synthesis of linkages, and the search for their best numbers.
 //!
 //! | module | concept |
 //! |---|---|
 //! | `conditions` | the linear conditions of poses on dyads, their solutions and samples |
 //! | `defects` | circuits, branches, dead points and order of a linkage at the positions of its task |
+//! | `descent` | the best point between bounds and within limits, with exact slopes |
 //! | `dyads` | all dyads that satisfy four linear conditions, by elimination |
 //! | `four_bar` | a candidate with names for its points |
 //! | `least_squares` | unknowns of a linkage and of its positions by the method of Levenberg and Marquardt |
 //! | `linkage` | the residuals of four-bars at a point, a pose or a pair of angles |
 //! | `motion` | four-bars through two to five poses |
 //! | `plane` | points and vectors as complex numbers |
+//! | `quadratic` | the least of a quadratic function within linear limits |
 //! | `random` | samples that are the same on every machine |
 //! | `ranked` | candidates, best first |
 
 mod conditions;
 mod defects;
+mod descent;
 mod dyads;
 mod four_bar;
 mod least_squares;
 mod linkage;
 mod motion;
 mod plane;
+mod quadratic;
 mod random;
 mod ranked;
 
 pub use conditions::{all_dyads, conditions, with_end, Choices, End, Refused};
 pub use defects::{Judged, Linkage, Output, KINDS};
+pub use descent::{Descent, Ending, Known};
 pub use dyads::{dyads, Dyad};
 pub use four_bar::FourBar;
 pub use least_squares::{least_squares, Fitted, Problem};

@@ -2,6 +2,7 @@
 
 import json
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +33,64 @@ def test_keys_are_those_of_closed_forms(seed: int) -> None:
     assert values["release"] == pytest.approx(9.81 * m * math.cos(phi), rel=1e-9)
     assert values["lowest"] == pytest.approx(9.81 * m * (1.0 + 2.0 * drop), rel=1e-6)
     assert values["speed"] == pytest.approx(math.sqrt(2.0 * 9.81 * drop / length), rel=1e-6)
+
+
+#: The answers of the other exercises of the gallery from their parameters.
+CLOSED: dict[str, Callable[..., dict[str, float]]] = {
+    "four_bar": lambda r, l, c, d, **_: {  # noqa: E741
+        "outer": math.pi - math.acos((d**2 + c**2 - (l + r) ** 2) / (2.0 * d * c)),
+        "inner": math.pi - math.acos((d**2 + c**2 - (l - r) ** 2) / (2.0 * d * c)),
+    },
+    "yoke": lambda r, m, n: {
+        "speed": r * n,
+        "acceleration": r * n**2,
+        "torque": 0.5 * m * (r * n) ** 2,
+    },
+    "gear": lambda m, n: {
+        "carrier": n / 3.6,
+        "planet": n / 3.6 * (1.0 - 52.0 / 16.0),
+        "centre": n / 3.6 * 18.0 * m,
+    },
+    "spring": lambda m, k: {
+        "force": 2.0 * m * 9.81,
+        "lowest": 2.0 * m * 9.81 / k,
+        "speed": 9.81 * math.sqrt(m / k),
+    },
+    "boom": lambda reach, m, load, slope: {
+        "torque": 9.81 * reach * (0.5 * m + load) * math.cos(slope),
+        "pin": 9.81 * (m + load),
+    },
+    "throw": lambda g, v, slope: {
+        "height": (v * math.sin(slope)) ** 2 / (2.0 * g),
+        "range": v**2 * math.sin(2.0 * slope) / g,
+        "slowest": v * math.cos(slope),
+    },
+    "flywheel": lambda inertia, torque, brake: {
+        "first": torque / inertia,
+        "speed": torque / brake * (1.0 - math.exp(-2.0 * brake / inertia)),
+    },
+    "shaper": lambda r, d, n: {
+        "end": 0.5 * math.pi - math.asin(r / d),
+        "slow": r * n / (d + r),
+        "fast": -r * n / (d - r),
+    },
+}
+
+
+@pytest.mark.parametrize("name", sorted(CLOSED))
+@pytest.mark.parametrize("seed", [0, 2])
+def test_the_exercises_of_the_gallery_have_the_answers_of_closed_forms(
+    name: str, seed: int
+) -> None:
+    one = kp.Exercise(kp.load(CLASSICS / f"{name}_exercise.toml"), seed=seed)
+    wanted = CLOSED[name](**one.case.model.compile().parameters)
+    assert list(wanted) == list(one.questions)
+    for question, value in wanted.items():
+        found = one.questions[question]
+        assert found.value == pytest.approx(value, rel=1e-4), question
+        typed = value * found.shown / found.value
+        assert found.check(typed), question
+        assert not found.check(1.03 * typed), question
 
 
 def test_variants_are_within_their_ranges_and_on_their_steps() -> None:

@@ -132,3 +132,56 @@ def test_what_has_no_answer_says_so(studio: Opener) -> None:
     assert answer(hands, "dead_centre", "0.2") == "Right."
     wrong = one.load(CRANK.read_text("utf-8").replace("piston.x.max", "piston.z.max"))
     assert "exercise.questions.dead_centre.measure" in json.dumps(wrong["problems"])
+
+
+def test_a_lecturer_writes_questions_by_mouse(studio: Opener, tmp_path: Path) -> None:
+    one = studio()
+    hands = Hands(one)
+    one.load(CRANK.read_text("utf-8").partition("[exercise]")[0])
+    hands.press("#add-question")
+    one.page.locator("summary", has_text="q1").click()
+    for label, words in (
+        ("Task", "A crank of {r} turns."),
+        ("q1: question", "How far does the piston come?"),
+        ("q1: hints, with | between", "They lie on one line. | Add both lengths."),
+        ("q1: measure", "piston.x.max"),
+        ("q1: unit", "mm"),
+        ("q1: tolerance", "0.5 mm"),
+        ("q1: points", "2"),
+    ):
+        hands.fill(label, words)
+    assert one.tree()["exercise"] == {
+        "text": "A crank of {r} turns.",
+        "questions": {
+            "q1": {
+                "text": "How far does the piston come?",
+                "hints": ["They lie on one line.", "Add both lengths."],
+                "measure": "piston.x.max",
+                "unit": "mm",
+                "tolerance": "0.5 mm",
+                "points": 2,
+            }
+        },
+    }
+    path = tmp_path / "written.toml"
+    path.write_text(one.toml(), "utf-8")
+    key = json.loads(kempe("exercise", path, "--json").stdout)["variants"][0]
+    assert key["questions"]["q1"]["value"] == pytest.approx(0.26, rel=1e-9)
+    one.load(one.toml())  # the student opens it
+    one.settle()
+    assert answer(hands, "q1", "260") == "Right."
+    assert "2 of 2 points" in one.page.locator("#score").inner_text()
+
+
+def test_a_second_question_is_deleted_and_then_the_first(studio: Opener) -> None:
+    one = studio()
+    hands = Hands(one)
+    one.load(CRANK.read_text("utf-8").partition("[exercise]")[0])
+    hands.press("#add-question")
+    hands.press("#add-question")
+    assert set(one.tree()["exercise"]["questions"]) == {"q1", "q2"}
+    for name in ("q2", "q1"):
+        one.page.locator("summary", has_text=name).click()
+        one.page.get_by_role("button", name=f"Delete {name}").click()
+        one.settle()
+    assert "[exercise" not in one.toml()

@@ -77,3 +77,19 @@ def test_what_has_no_slopes_says_so(studio: Opener) -> None:
     assert "no statistic 'most'" in one.page.locator("#slopes-of").inner_text()
     shown = slopes(hands, "motor.effort.rms")  # the remedy
     assert "%" in shown["r"]
+
+
+def test_a_parameter_of_the_analysis_itself_has_no_slope(studio: Opener, tmp_path: Path) -> None:
+    """The end of the motion depends on the speed, which slopes at fixed times would leave out."""
+    one = studio()
+    text = CASE.read_text("utf-8").partition("[exercise]")[0]
+    one.load(text.replace("t_end = 0.2", 't_end = "pi/n"'))
+    path = tmp_path / "case.toml"
+    path.write_text(one.toml(), "utf-8")
+    found = kp.gradient(kp.load(path), ["motor.effort.rms"], ["r", "l", "n"])
+    slopes = {row["name"]: row for row in one.call("kempe.slopes('motor.effort.rms')")["slopes"]}
+    assert slopes["n"]["slope"] is None
+    assert "an analysis depends on it" in slopes["n"]["remark"]
+    for name in ("r", "l"):
+        own = found["motor.effort.rms", name]
+        assert slopes[name]["slope"] == pytest.approx(own, rel=1e-9)

@@ -75,7 +75,7 @@ impl<'a> Exercise<'a> {
     /// The unit in which an answer without a unit is.
     fn unit(&self, question: &[(String, Written)]) -> String {
         let si = || match (text(question, "measure"), text(question, "quantity")) {
-            (Some(column), _) => unit(self.loaded, column),
+            (Some(column), _) => unit(&self.loaded.case, &self.loaded.model, column),
             (_, Some(name)) => {
                 readings::find(&self.loaded.model, name).map(|of| of.unit).unwrap_or_default()
             }
@@ -142,10 +142,12 @@ impl<'a> Exercise<'a> {
         let analysis = text(&self.loaded.case.exercise, "analysis");
         let at = entry(question, "at");
         let value = match (text(question, "measure"), text(question, "quantity"), at) {
-            (Some(column), ..) => value(&sweep(self.loaded, column, analysis, None)?, &parameters)?,
+            (Some(column), ..) => {
+                value(&sweep(self.loaded, &[column], analysis, None)?.0, &parameters)?
+            }
             (_, Some(quantity), Some(at)) => {
                 let column = format!("{quantity}.final");
-                value(&sweep(self.loaded, &column, analysis, Some(at))?, &parameters)?
+                value(&sweep(self.loaded, &[&column], analysis, Some(at))?.0, &parameters)?
             }
             (_, Some(quantity), None) => self.at_start(quantity, &parameters)?,
             _ => return Err(Fault::new("the question has neither a measure nor a quantity")),

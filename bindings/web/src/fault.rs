@@ -8,7 +8,8 @@ use serde_json::{json, Value};
 /// A message with its remedy, and the faults of a text.
 #[derive(Debug, Default)]
 pub struct Fault {
-    message: String,
+    /// The message.
+    pub message: String,
     hint: Option<String>,
     problems: Vec<Value>,
 }

@@ -19,6 +19,7 @@ mod loaded;
 mod mechanism;
 mod modes;
 mod named;
+mod optimize;
 mod pose;
 mod readiness;
 mod run;

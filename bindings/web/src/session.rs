@@ -12,6 +12,7 @@ use crate::live::Live;
 use crate::loaded::{load, without_drivers, Loaded};
 use crate::modes::configurations;
 use crate::named;
+use crate::optimize::Search;
 use crate::pose::pose;
 use crate::readiness::readiness;
 use crate::run::Ran;
@@ -31,6 +32,7 @@ pub struct Session {
     loaded: Option<Loaded>,
     live: Option<Live>,
     ran: Option<Ran>,
+    search: Option<Search>,
     numbers: Vec<f64>,
 }
 
@@ -84,6 +86,11 @@ impl Session {
             }
             "instant" => self.last_run()?.instant(fields.number("at")?),
             "slopes" => slopes(self.loaded()?, fields),
+            "optimize" => {
+                let search = Search::begin(self.present()?)?;
+                Ok(self.search.insert(search).described())
+            }
+            "improve" => self.searched(),
             "exercise" => Ok(self.exercise(fields)?.described()),
             "variant" => Ok(self.exercise(fields)?.changes()),
             "answer" => {
@@ -124,7 +131,7 @@ impl Session {
     fn load(&mut self, text: &str) -> Value {
         let (loaded, reply) = load(text);
         self.text = text.to_string();
-        (self.loaded, self.live, self.ran) = (loaded, None, None);
+        (self.loaded, self.live, self.ran, self.search) = (loaded, None, None, None);
         reply
     }
 
@@ -236,6 +243,14 @@ impl Session {
         let reply = ran.described();
         self.ran = Some(ran);
         Ok(reply)
+    }
+
+    /// The next run of a search.
+    fn searched(&mut self) -> Result<Value, Fault> {
+        let search = self.search.as_mut();
+        let search = search.ok_or_else(|| Fault::new("no search is in progress"))?;
+        search.advance();
+        Ok(search.described())
     }
 
     fn values(&mut self, names: &[&str]) -> Result<Value, Fault> {

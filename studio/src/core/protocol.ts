@@ -209,6 +209,23 @@ export interface Exercise {
   questions: Question[];
 }
 
+/** A search for the values of parameters that are best within limits, in SI units. */
+export interface Search {
+  runs: number;
+  failed: number;
+  /** Why a run failed. */
+  reason: string | null;
+  ending: "best" | "corner" | "enough" | null;
+  /** The objective, its unit, and its value before and now. */
+  label: string;
+  unit: string;
+  before: number | null;
+  now: number;
+  values: Record<string, number>;
+  /** The room of each limit, as a part of the size of what it compares. */
+  room: number[];
+}
+
 /** The answer to the section [synthesis]. */
 export interface Solved {
   poses: Triple[];
@@ -264,6 +281,8 @@ export interface Requests {
     send: { measure: string; analysis?: string };
     reply: { value: number; unit: string; slopes: { name: string; slope: number | null; remark: string | null }[] };
   };
+  optimize: { send: object; reply: Search };
+  improve: { send: object; reply: Search };
   synthesis: { send: object; reply: Solved };
   candidate: { send: { choice: number }; reply: { changes: Change[] } };
   instant: { send: { at: number }; reply: Instant };

@@ -24,7 +24,14 @@ export class Restarted extends Error {
 }
 
 /** The time limit of runs, as a multiple of the limit of other requests. */
-const LONGER: Partial<Record<Do, number>> = { run: 6, configurations: 3, answer: 6, slopes: 6 };
+const LONGER: Partial<Record<Do, number>> = {
+  run: 6,
+  configurations: 3,
+  answer: 6,
+  slopes: 6,
+  optimize: 6,
+  improve: 6,
+};
 
 /** The request was replaced by a newer one before it was sent. */
 export class Superseded extends Error {}

@@ -41,7 +41,11 @@ let of = "";
 effect(() => {
   loads.value;
   if (has.value) void read();
-  else exercise.value = null;
+  else {
+    exercise.value = null;
+    // a first question that is added does not change the panel
+    of = `${openings.peek()} `;
+  }
 });
 
 async function read(): Promise<void> {

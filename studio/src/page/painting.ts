@@ -1,6 +1,7 @@
 // Paints the whole drawing from the state of the page.
 import { isPin } from "../catalogue/catalogue";
 import { entry } from "../catalogue/tree";
+import { before } from "../design/improve";
 import { paintCandidate, paintPoses } from "../design/painting";
 import { active, candidate, poses as designPoses, taken } from "../design/task";
 import { paintCentres, paintCentrodes } from "../diagrams/painting";
@@ -36,6 +37,7 @@ export function follow(): void {
   for (const one of [
     backdrop,
     active,
+    before,
     blamed,
     candidate,
     centres,
@@ -73,6 +75,7 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
     if (!bare)
       for (const at of blamed.value.flatMap(placesOfPart)) paintRing(context, view, at, colours, 18, "problem");
     const names = paintItems(context, view, items.value, poses.value, shown.value, colours);
+    paintBefore(context, colours);
     if (!items.value.length) paintLinks(context, view, found.bodies, poses.value, colours);
     if (editing && mode.value === "edit") paintHandles(context, view, loosePoints(), colours);
     names.push(...paintNotes(context, notes.value, colours));
@@ -86,6 +89,20 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
   if (bare) return;
   if (ghost.value) paintGhost(context, view, ghost.value, colours);
   paintPreview(context, colours);
+}
+
+/** The mechanism before a search, faint. */
+function paintBefore(context: CanvasRenderingContext2D, colours: Colours): void {
+  if (!before.value) return;
+  context.save();
+  const { bodies, poses: places } = before.value;
+  context.globalAlpha = 0.45;
+  context.setLineDash([8, 6]);
+  paintLinks(context, view, bodies, places, colours);
+  context.setLineDash([]);
+  const pairs = bodies.flatMap(({ points: of }, k) => Object.values(of).map((at) => placed(places[k]!, at)));
+  paintHandles(context, view, pairs, colours);
+  context.restore();
 }
 
 function paintDesign(context: CanvasRenderingContext2D, colours: Colours): void {

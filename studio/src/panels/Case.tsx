@@ -5,6 +5,7 @@ import { entries } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
 import { isName, rename } from "../edit/commands";
 import { written, writtenList } from "../edit/values";
+import { Editor } from "../exercise/Editor";
 import { report } from "../store/session";
 import { announce, catalogue, mechanism, tree } from "../store/state";
 import { texts } from "../texts";
@@ -39,6 +40,7 @@ export function Case() {
       ))}
       <Start />
       <Analyses />
+      <Editor />
       <Mobility />
       <Ready />
       <Backdrop />

@@ -2,12 +2,14 @@
 import { effect, signal } from "@preact/signals";
 import type { Tree } from "../core/protocol";
 import { CoreError } from "../core/transport";
+import { bounds, measure, rewritten } from "../design/improve";
 import { displayed } from "../draw/display";
 import { minus, significant } from "../draw/numbers";
 import { Draft } from "../store/document";
 import { report, send } from "../store/session";
 import { loads, mechanism, openings, tree, units } from "../store/state";
 import { texts } from "../texts";
+import { Improve } from "./Improve";
 import { Button } from "./parts";
 import { shown } from "./Readings";
 
@@ -20,7 +22,6 @@ interface Slopes {
   slopes: { name: string; slope: number | null; remark: string | null }[];
 }
 
-const measure = signal("");
 const slopes = signal<Slopes | null>(null);
 const fault = signal("");
 const busy = signal(false);
@@ -104,6 +105,7 @@ export function Sliders() {
         {fault.value ||
           (found ? words.of(found.measure, shown(found.value, found.unit)) : slopes.value ? words.old : "")}
       </p>
+      <Improve />
     </details>
   );
 }
@@ -117,22 +119,11 @@ interface SliderProps {
 
 let draft: Draft | null = null;
 
-/** The value as it is written: a number in SI units, or with the unit that the text has. */
-function rewritten(name: string, value: number): string | number {
-  const before = (tree.value?.parameters as Tree | undefined)?.[name];
-  const unit =
-    typeof before === "string" ? /^\s*[-+]?[\d.]+(?:e[-+]?\d+)?\s*([^\d\s*/+-].*)$/i.exec(before)?.[1] : undefined;
-  const rounded = (x: number) => Number(x.toPrecision(4));
-  const factor = mechanism.value?.parameters.find((one) => one.name === name)?.value;
-  const number = typeof before === "string" ? Number.parseFloat(before) : Number.NaN;
-  if (unit && factor && number) return `${rounded((value * number) / factor)} ${unit}`;
-  return rounded(value);
-}
-
 /** A parameter as a slider. Its ends are typed; the text changes with it, and the drag is one step of the history. */
 function Slider({ name, value, unit, slope }: SliderProps) {
   const { factor, unit: name_of } = displayed(unit ?? "", units.value);
-  const own = ranges.value[name];
+  const varied = bounds.value[name];
+  const own = (varied as [number, number] | undefined) ?? ranges.value[name];
   const [low, high] =
     own ?? (value === 0 ? [-1, 1] : [Math.min(0.5 * value, 1.5 * value), Math.max(0.5 * value, 1.5 * value)]);
   const formula = typeof (tree.value?.parameters as Tree | undefined)?.[name] === "string" && isFormula(name);
@@ -140,7 +131,7 @@ function Slider({ name, value, unit, slope }: SliderProps) {
     draft ??= new Draft();
     // the ends stay where they are while the value moves
     if (!own) ranges.value = { ...ranges.value, [name]: [low, high] };
-    draft.show([{ path: ["parameters", name], value: rewritten(name, to) }]);
+    draft.show([{ path: ["parameters", name], value: rewritten(name, to, 4) }]);
   };
   const keep = () => {
     void draft?.keep().catch(report);
@@ -149,18 +140,35 @@ function Slider({ name, value, unit, slope }: SliderProps) {
   const end = (k: 0 | 1, text: string) => {
     const given = Number(text.replace(",", ".")) / factor;
     const next: [number, number] = k === 0 ? [given, high] : [low, given];
-    if (Number.isFinite(given) && next[0] < next[1]) ranges.value = { ...ranges.value, [name]: next };
+    if (!Number.isFinite(given) || next[0] >= next[1]) return;
+    ranges.value = { ...ranges.value, [name]: next };
+    if (varied) bounds.value = { ...bounds.value, [name]: [...next, ...varied.slice(2)] };
+  };
+  const vary = (on: boolean) => {
+    const { [name]: _, ...others } = bounds.value;
+    bounds.value = on ? { ...others, [name]: [low, high] } : others;
   };
   const plain = (x: number) => String(Number((x * factor).toPrecision(6)));
   return (
     <div class="slider ranged">
-      <label for={`slider-${name}`}>
-        <bdi>{name}</bdi>
-        <output>{shown(value, unit ?? "")}</output>
-        <output class="slope" id={`slope-${name}`}>
-          {slope}
-        </output>
-      </label>
+      <div class="named">
+        <input
+          type="checkbox"
+          id={`vary-${name}`}
+          aria-label={texts.slopes.vary(name)}
+          title={texts.slopes.varyHint}
+          checked={varied !== undefined}
+          disabled={formula}
+          onChange={(event) => vary(event.currentTarget.checked)}
+        />
+        <label for={`slider-${name}`}>
+          <bdi>{name}</bdi>
+          <output>{shown(value, unit ?? "")}</output>
+          <output class="slope" id={`slope-${name}`}>
+            {slope}
+          </output>
+        </label>
+      </div>
       <div class="ends">
         <input
           type="text"
