@@ -45,6 +45,33 @@ def test_a_bounce_moves_with_the_variables(scale: tuple[float, float, float]) ->
     agrees(g, "energy.kinetic.integral", lambda **of: mass * parts(**of)[3], numbers, 1e-9)
 
 
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("exponent", [1, 1.5, 2])
+def test_the_impulse_of_a_soft_floor(scale: tuple[float, float, float], exponent: float) -> None:
+    """The impulse is the change of the momentum without the weight. The ball begins exactly at the
+    floor, where only a linear law has a stiffness."""
+    size, mass, rate = scale
+    numbers = {"m": 2.0 * mass, "g": 2.0 * size * rate**2, "b": 0.7 * size}
+    numbers |= {"k": 400.0 * mass * rate**2 * size ** (1 - exponent), "d": 0.3 / (size * rate)}
+    m = kp.Model("ball", gravity=(0, "-g"), parameters=numbers)
+    m.body("ball", mass="m", inertia=mass * size**2)
+    m.stop("floor", "ball.y", lower="b", stiffness="k", exponent=exponent, damping="d")
+    end, method = 1.5 / rate, kp.DOP853(rtol=1e-12, atol=1e-14 * size)
+    start = {"ball.y": numbers["b"], "ball.vy": -2.0 * size * rate}
+    case = kp.Case(m, {"set": start}, [kp.Dynamics(t_end=end, method=method)])
+    g = kp.gradient(case, ["floor.force.integral", "ball.vy.final"], list(numbers))
+    gained = g.measures["ball.vy.final"] - start["ball.vy"] + numbers["g"] * end
+    for name, value in numbers.items():
+        own = {"m": gained, "g": numbers["m"] * end}.get(name, 0.0)
+        expected = numbers["m"] * g["ball.vy.final", name] + own
+        error = g["floor.force.integral", name] - expected
+        assert abs(error) < 1e-7 * mass * size * rate / value, name
+
+    run = kp.dynamics(m, kp.assemble(m, start), t_end=end, method=method, slopes=["b"])
+    touch = 1.6 * numbers["k"] if exponent == 1 else 0.0
+    assert run.slope("floor.force", "b")[0] == pytest.approx(touch, rel=1e-12)
+
+
 def shaft(**fields: Any) -> kp.Case:
     m = kp.Model("shaft", parameters={"a": 2.0, "b": 0.3})
     m.ground.points(O=(0, 0))
