@@ -94,6 +94,51 @@ def test_kinks_of_a_formula_cost_no_accuracy() -> None:
     agrees(g, "abs(wheel.angle).mean", mean, {"a": 2.0, "b": 0.3}, 1e-8)
 
 
+@pytest.mark.parametrize("scale", SCALES)
+def test_kinks_at_the_ends_of_steps_have_the_slopes_of_their_steps(
+    scale: tuple[float, float, float],
+) -> None:
+    """A ball starts at rest, where magnitudes of its velocity have a kink, and falls."""
+    size, mass, rate = scale
+    m = kp.Model("ball", gravity=(0, "-g"), parameters={"g": 2.0 * size * rate**2})
+    m.body("ball", mass=mass, inertia=mass * size**2)
+    start = {"ball.vx": 0.0, "ball.vy": 0.0}
+    end, speeds = 1.5 / rate, ["abs(ball.vy)", "max(ball.vy, 0)", "hypot(ball.vx, ball.vy)"]
+    case = kp.Case(m, {"set": start}, [kp.Dynamics(t_end=end)])
+    g = kp.gradient(case, [f"{speed}.integral" for speed in speeds], [*start, "g"])
+    expected = [[0.0, -end, end**2 / 2], [0.0, 0.0, 0.0], [0.0, -end, end**2 / 2]]
+    allowed = 1e-9 * np.array([end, end, end**2])
+    assert (abs(g.jacobian - expected) < allowed).all(), (g.jacobian, g.remarks)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_a_law_whose_pieces_join_smoothly_within_a_step(scale: tuple[float, float, float]) -> None:
+    """The modified trapezoid: its third derivative has corners, which steps of kinematics miss."""
+    size, mass, rate = scale
+    numbers = {"h": 0.3 * size, "rise": 1.9 / rate}
+    m = kp.Model("follower", parameters=numbers)
+    m.ground.points(O=(0, 0))
+    m.body("follower", mass=mass, inertia=mass * size**2, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "follower.P")
+    m.coordinate_driver("cam", "follower.x", value="h*modified_trapezoid(t/rise)")
+    end = 2.7 / rate
+    run = kp.Kinematics(t_end=end, output_step=end / 25)
+    measures = ["follower.ax.integral", "follower.ax.rms", "follower.x.t_max"]
+    g = kp.gradient(kp.Case(m, analyses=[run]), measures, list(numbers))
+    peak = 8 * np.pi / (2 + np.pi)
+
+    def rms(h: Any, rise: Any) -> Any:
+        return h / rise**2 * peak * np.sqrt(0.75 * rise / end)
+
+    largest = numbers["h"] / numbers["rise"]
+    assert abs(g.measures[measures[0]]) < 1e-11 * largest
+    assert abs(g[measures[0], "rise"]) < 1e-8 * largest / numbers["rise"]
+    assert g.measures[measures[1]] == pytest.approx(rms(**numbers), rel=1e-11)
+    agrees(g, measures[1], rms, numbers, 1e-8)
+    # the dwell has no first time of its largest value
+    assert "is flat near" in g.remarks[measures[2], "rise"]
+
+
 def test_a_jump_of_a_formula_has_a_remark() -> None:
     texts = ["if(wheel.angle > 1, 1, 0).mean", "wheel.angle.mean"]
     g = kp.gradient(shaft(t_end=2, output_step=0.1), texts, ["a", "b"])

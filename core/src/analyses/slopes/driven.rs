@@ -1,5 +1,6 @@
 //! The derivatives of a motion that drivers determine, by the implicit function theorem at each time.
 
+use super::reader::States;
 use crate::analyses::assemble::{determined, determines, implicit};
 use crate::equations::kinematics::Motions;
 use crate::equations::sensitivity::{constants, Sensitivity, Slope};
@@ -28,4 +29,17 @@ pub(super) fn state(
     let mut state = [of_q, of_v, constants(z)].concat();
     state.resize(model.layout.n_y(), Slope::constant(f64::NAN));
     Ok(state)
+}
+
+/// Replaces the rates of q, v and z, the first `n_q` of which are zero, where positions at rest follow one another: q
+/// changes along them, and nothing else.
+pub(super) fn follow(states: States<'_>, t: f64, rates: &mut [f64], n_q: usize) {
+    let (of_q, others) = rates.split_at_mut(n_q);
+    if of_q.iter().all(|v| *v == 0.0) {
+        let along = states(t).map(|[.., along]| along).filter(|along| along.len() == n_q);
+        if let Some(along) = along {
+            of_q.copy_from_slice(&along);
+            others.fill(0.0);
+        }
+    }
 }
