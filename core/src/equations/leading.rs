@@ -9,15 +9,17 @@ use crate::model::{size, Model};
 /// Limit of friction at which it no longer leads, relative to the limits of the friction that follows it.
 const LEADS: f64 = 1e-3;
 
-/// The limit of friction `k` in N, that of a torque over the size of the mechanism.
+/// The limit of friction `k` against a multiplier of this sign in N, that of a torque over the size of the mechanism.
 pub fn limit<S: Real>(
     model: &Model<S>,
     k: usize,
     motions: &Motions<S>,
     acting: Acting<'_, S>,
+    multiplier: S,
 ) -> S {
     let element = forces::at_state(model, &model.forces[k], motions, acting);
-    let (limit, _) = element.limit(&forces::reported(model, k, motions, acting));
+    let at = forces::reported(model, k, motions, acting);
+    let (limit, _) = element.limit_against(&at, multiplier);
     let turns = element.result_quantities().first().is_some_and(|of| of.unit == "N*m");
     if turns {
         limit / S::constant(size(model))
@@ -26,18 +28,22 @@ pub fn limit<S: Real>(
     }
 }
 
-/// The limit of friction `k` beyond a small part of the limits of the friction that follows it. Where it is negative,
-/// another one has to lead, because the efforts of the others are found from its own. None if none follows.
+/// The limit of friction `k` that holds, beyond a small part of the limits of the friction that follows it. Where it is
+/// negative, another one has to lead, because the efforts of the others are found from its own. None if none follows.
 pub fn lead<S: Real>(
     model: &Model<S>,
     k: usize,
     motions: &Motions<S>,
     acting: Acting<'_, S>,
 ) -> Option<S> {
-    let follows = |other: &usize| matches!(model.forces[*other].mode, Mode::Follows { leader, .. } if leader == k);
-    let others = (0..model.forces.len()).filter(follows);
-    let beyond = |other: usize| {
-        limit(model, k, motions, acting) - S::constant(LEADS) * limit(model, other, motions, acting)
+    let own = forces::reported(model, k, motions, acting).multiplier;
+    let sense = |other: usize| match model.forces[other].mode {
+        Mode::Follows { leader, sense } if leader == k => Some((other, S::constant(sense) * own)),
+        _ => None,
     };
-    others.map(beyond).reduce(S::min)
+    let beyond = |(other, multiplier): (usize, S)| {
+        let limit = |k: usize, multiplier: S| limit(model, k, motions, acting, multiplier);
+        limit(k, own) - S::constant(LEADS) * limit(other, multiplier)
+    };
+    (0..model.forces.len()).filter_map(sense).map(beyond).reduce(S::min)
 }

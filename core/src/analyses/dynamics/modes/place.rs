@@ -102,8 +102,14 @@ impl<'y> StateAt<'y> {
         let ([q, v, z], solved) = (self.state(model), self.solved(model).ok());
         let motions = Motions::at(&model.layout, q, v);
         let acting = Acting { z, lam: solved.as_ref().map(Workspace::lam), t: self.t };
-        let limits = friction.iter().map(|k| leading::limit(model, *k, &motions, acting)).list();
-        let most = WEAK * largest(&limits);
+        let limit = |k: &usize| leading::limit(model, *k, &motions, acting, 0.0);
+        let limits = friction.iter().map(limit).list();
+        // friction in one direction may have no part in the force that is needed
+        let both = |(k, own): (&usize, &f64)| match model.forces[*k].element.only_pushes() {
+            true => 0.0,
+            false => *own,
+        };
+        let most = WEAK * largest(&friction.iter().zip(&limits).map(both).list());
         friction.iter().zip(limits).filter(|(_, own)| *own < most).map(|(k, _)| *k).list()
     }
 
