@@ -20,30 +20,40 @@ pub fn limit<S: Real>(
     let element = forces::at_state(model, &model.forces[k], motions, acting);
     let at = forces::reported(model, k, motions, acting);
     let (limit, _) = element.limit_against(&at, multiplier);
-    let turns = element.result_quantities().first().is_some_and(|of| of.unit == "N*m");
-    if turns {
-        limit / S::constant(size(model))
-    } else {
-        limit
-    }
+    limit * weight(model, k)
 }
 
-/// The limit of friction `k` that holds, beyond a small part of the limits of the friction that follows it. Where it is
-/// negative, another one has to lead, because the efforts of the others are found from its own. None if none follows.
+/// The factor of an effort of friction `k` that makes it a force.
+fn weight<S: Real>(model: &Model<S>, k: usize) -> S {
+    let quantities = model.forces[k].element.result_quantities();
+    let turns = quantities.first().is_some_and(|of| of.unit == "N*m");
+    S::constant(if turns { 1.0 / size(model) } else { 1.0 })
+}
+
+/// The limit of friction `k` that holds, beyond a small part of the limits of the friction that follows it; of friction in
+/// one direction, which may have no part in the force, what it carries counts. Where the result is negative, another one
+/// has to lead, because the efforts of the others are found from its own. None if none follows.
 pub fn lead<S: Real>(
     model: &Model<S>,
     k: usize,
     motions: &Motions<S>,
     acting: Acting<'_, S>,
 ) -> Option<S> {
+    let of = |k: usize, multiplier: S| limit(model, k, motions, acting, multiplier);
     let own = forces::reported(model, k, motions, acting).multiplier;
+    let (most, carried) = (of(k, own), own.abs() * weight(model, k));
+    let part = S::select(most, carried / most, S::one());
     let sense = |other: usize| match model.forces[other].mode {
         Mode::Follows { leader, sense } if leader == k => Some((other, S::constant(sense) * own)),
         _ => None,
     };
     let beyond = |(other, multiplier): (usize, S)| {
-        let limit = |k: usize, multiplier: S| limit(model, k, motions, acting, multiplier);
-        limit(k, own) - S::constant(LEADS) * limit(other, multiplier)
+        let limit = of(other, multiplier);
+        let counts = match model.forces[other].element.only_pushes() {
+            true => S::select(carried, part * limit, S::zero()),
+            false => limit,
+        };
+        most - S::constant(LEADS) * counts
     };
     (0..model.forces.len()).filter_map(sense).map(beyond).reduce(S::min)
 }

@@ -337,8 +337,9 @@ def _active(problem: Problem, run: Run) -> dict[str, float]:
     if problem.others:
         return {}
     shares, rates = problem.shares(run.row), problem.rates(run.row)
+    texts: list[str] = []
     doubtful: set[int] = set()
-    texts, slopes, per_unit = [], [], []
+    slopes, per_unit = [], []
     for k, bound in enumerate(problem.bounds):
         for end, sign, value in ((0.0, 1.0, bound.least), (1.0, -1.0, bound.largest)):
             if (away := abs(shares[k] - end)) < _NEAR:
