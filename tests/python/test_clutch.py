@@ -181,3 +181,24 @@ def test_friction_of_a_slide_fades_while_a_brake_holds_its_pinion(size: float, f
     # half of the force above that of the brake acts on the rack
     past = 8 - 2 / 0.3
     assert sol["rack.vx"][-1] == pytest.approx(0.3 * g / w * past**2 / 4, rel=1e-8)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_a_brake_fades_beside_a_free_wheel_without_load(scale: tuple[float, float]) -> None:
+    """The drum comes to rest, and stays there when the brake has no capacity any more."""
+    inertia, rate = scale
+    most = inertia * rate**2
+    m = kp.Model("brakes", gravity=(0, 0))
+    m.ground.points(O=(0, 0))
+    m.body("drum", mass=1.0, inertia=inertia, points={"O": (0, 0)})
+    m.revolute("pin", "ground.O", "drum.O")
+    m.clutch("brake", "ground", "drum", capacity=f"{most}*(1 - {0.3 * rate}*t)")
+    m.clutch("sprag", "ground", "drum", capacity=0.7 * most, one_way=True)
+    m.clutch("small", "ground", "drum", capacity=f"{0.1 * most}*(1 - {0.4 * rate}*t)", one_way=True)
+    start = kp.assemble(m, set={"drum.omega": 0.5 * rate, "drum.angle": 0.0})
+    sol = kp.dynamics(m, start, t_end=6.0 / rate, method=EXACT)
+    # 0.5 = t - 0.15 t²
+    stop = (1 - np.sqrt(1 - 0.3)) / 0.3
+    assert sol.events["brake.stick"].t * rate == pytest.approx([stop], rel=1e-9)
+    assert sol["drum.omega"][-1] == pytest.approx(0.0, abs=1e-12 * rate)
+    assert sol["drum.angle"][-1] == pytest.approx(0.5 * stop - stop**2 / 2 + 0.05 * stop**3)

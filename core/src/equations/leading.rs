@@ -31,17 +31,19 @@ fn weight<S: Real>(model: &Model<S>, k: usize) -> S {
 }
 
 /// The limit of friction `k` that holds, beyond a small part of the limits of the friction that follows it; of friction in
-/// one direction, which may have no part in the force, what it carries counts. Where the result is negative, another one
+/// one direction, which may have no part in the force, what it carries counts, if the multiplier exceeds `noise`. Where the result is negative, another one
 /// has to lead, because the efforts of the others are found from its own. None if none follows.
 pub fn lead<S: Real>(
     model: &Model<S>,
     k: usize,
     motions: &Motions<S>,
     acting: Acting<'_, S>,
+    noise: f64,
 ) -> Option<S> {
     let of = |k: usize, multiplier: S| limit(model, k, motions, acting, multiplier);
     let own = forces::reported(model, k, motions, acting).multiplier;
-    let (most, carried) = (of(k, own), own.abs() * weight(model, k));
+    let (most, noise) = (of(k, own), S::constant(noise));
+    let carried = (own.abs() - noise) * weight(model, k);
     let part = S::select(most, carried / most, S::one());
     let sense = |other: usize| match model.forces[other].mode {
         Mode::Follows { leader, sense } if leader == k => Some((other, S::constant(sense) * own)),
@@ -53,7 +55,7 @@ pub fn lead<S: Real>(
             true => S::select(carried, part * limit, S::zero()),
             false => limit,
         };
-        most - S::constant(LEADS) * counts
+        most + noise * weight(model, k) - S::constant(LEADS) * counts
     };
     (0..model.forces.len()).filter_map(sense).map(beyond).reduce(S::min)
 }

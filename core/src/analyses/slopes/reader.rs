@@ -298,7 +298,7 @@ impl<'a> Reader<'a> {
         let powers = workspace.powers(model, v);
         let mut rates = [v, workspace.a(), &dz].concat();
         if let StateSlopes::Driven(_, states) = course {
-            driven::follow(*states, t, &mut rates, v.len());
+            driven::follow(|| states(t), &mut rates, v.len());
         }
         let along = |(x, rate): (&f64, &f64)| {
             let mut slope = [0.0; ABREAST];

@@ -87,7 +87,8 @@ impl ModeFunction {
             }
             Self::Reserve { force, slack } => {
                 let own = forces::reserve(model, force, seen.motions, acting) + S::constant(slack);
-                leading::lead(model, force, seen.motions, acting).map_or(own, |lead| own.min(lead))
+                let lead = leading::lead(model, force, seen.motions, acting, slack);
+                lead.map_or(own, |lead| own.min(lead))
             }
             Self::Begins { force, at, .. } => S::constant(at) - threshold(force).abs(),
             Self::Never => S::constant(1.0),
