@@ -261,3 +261,32 @@ def test_slopes_of_a_path_without_timing() -> None:
         up, down = (np.linalg.norm(path.residuals(plan, row + s * step)[0]) for s in (1, -1))
         assert apart @ slopes[:, k] / size == pytest.approx((up - down) / 2e-5, abs=1e-6)
     assert size > 0.3
+
+
+@pytest.mark.parametrize("size", [1.0, 5.630834976715714])
+def test_the_worth_of_a_limit_in_a_corner_with_a_bound(size: float) -> None:
+    """A weight on two springs. With the second size, the search ends just beside the bound."""
+    mass, gravity = 241.70342572414492, 8.693891694802746
+    deep, aim, most = 0.36756215699717754, 0.8001662849112254, 0.8115836700442643
+    unit, weight, scale = mass * gravity / size, 1.8103301680943928, 0.5539615512574806
+    m = kp.Model("springs", gravity=(0, -gravity), parameters={"k": 1.3 * unit, "q": 0.9 * unit})
+    m.ground.points(O=(0, 0))
+    m.body("block", mass=mass, inertia=mass * size**2, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "block.P", axes=(np.pi / 2, np.pi / 2))
+    m.generalized_force("springs", "block.y", value="-(k+0.5*q)*block.y")
+    case = kp.Case(m, {"set": {"block.y": -0.1 * size}}, [kp.Equilibrium()])
+    best = kp.optimize(
+        case,
+        {"k": (unit * 0.05, most * unit), "q": (unit * 0.05, unit * 20)},
+        minimize=f"{scale}*((k/{unit}-{aim})^2 + {weight}*(q/{unit}-{aim})^2)",
+        subject_to=[f"block.y >= {-deep * size}"],
+        starts=3,
+    )
+    # k + q/2 >= 1/deep in units of the weight over the size
+    other = 2 * (1 / deep - most)
+    limit = 4 * weight * scale * (other - aim)
+    bound = limit - 2 * scale * (most - aim)
+    assert best.values["k"] / unit == pytest.approx(most, rel=1e-6)
+    assert best.values["q"] / unit == pytest.approx(other, rel=1e-5)
+    worth, expected = sorted(best.active.values()), [limit / (deep**2 * size), bound / unit]
+    assert worth == pytest.approx(sorted(expected), rel=1e-4)

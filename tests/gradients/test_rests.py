@@ -135,3 +135,43 @@ def test_a_motion_that_ends_at_a_dead_point_fails_as_a_run_does() -> None:
     case = four_bar(numbers, kp.Kinematics(over="crank.angle", range=[0.6, 2.5]))
     with pytest.raises(kp.SingularityError, match=r"crank cannot pass 94\.1.*: dead point"):
         kp.gradient(case, ["rocker.angle.final", "rocker.angle.max"], ["a"])
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_gears_at_rest_push_each_other_apart(scale: Scale) -> None:
+    """A bar on one wheel, a spring on the other: the radial force of the teeth depends on λ."""
+    size, mass, rate = scale
+    weight, torque = mass * 9.0 * size * rate**2, mass * (size * rate) ** 2
+    numbers = {"m": mass, "k": 7.0 * torque, "L": size, "rest": -0.9, "press": 0.35}
+    m = kp.Model("gears", gravity=(0, -weight / mass), parameters=numbers)
+    m.ground.points(O=(0, 0), D=(0.7 * size, 0))
+    m.bar("arm", mass="m", length="L", ends=("O", "P"))
+    m.body("wheel", mass=0, inertia=mass * size**2, points={"D": (0, 0)})
+    m.revolute("O", "ground.O", "arm.O")
+    m.revolute("D", "ground.D", "wheel.D")
+    m.gear("mesh", "arm.O", "wheel.D", radii=(0.4 * size, 0.3 * size), pressure_angle="press")
+    m.torsion_spring("spring", "ground", "wheel", stiffness="k", free_angle="rest")
+    case = kp.Case(m, {"set": {"arm.angle": 0.6, "wheel.angle": -0.8}}, [kp.Equilibrium()])
+    g = kp.gradient(case, ["arm.angle", "mesh.tangential", "D.force"], list(numbers))
+
+    def angle(**of: Any) -> Any:
+        found = g.measures["arm.angle"] + 0j
+        for _ in range(4):
+            arm, ratio = of["m"] * weight / mass * of["L"] / 2, 4 / 3
+            sum_of_torques = arm * np.cos(found) + of["k"] * ratio * (ratio * found + of["rest"])
+            stiffness = -arm * np.sin(found) + of["k"] * ratio**2
+            found = found - sum_of_torques / stiffness
+        return found
+
+    def tangential(**of: Any) -> Any:
+        return of["k"] * (-4 / 3 * angle(**of) - of["rest"]) / (0.3 * size)
+
+    def pin(**of: Any) -> Any:
+        sign = np.sign(np.real(tangential(**of)))
+        return sign * tangential(**of) / np.cos(of["press"])
+
+    agrees(g, "arm.angle", angle, numbers, 1e-9)
+    told = g.measures["mesh.tangential"]
+    sign = np.sign(told * np.real(tangential(**numbers)))
+    agrees(g, "mesh.tangential", lambda **of: sign * tangential(**of), numbers, 1e-8)
+    agrees(g, "D.force", pin, numbers, 1e-8)

@@ -342,3 +342,29 @@ def test_implicit_steps_give_the_slopes_of_explicit_steps(size: float) -> None:
     error = np.abs(implicit - explicit) * [*numbers.values(), 1.0] / scale
     assert error.max() < 1e-7
     assert not found[1].remarks
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_the_place_of_the_largest_holding_torque(scale: tuple[float, float, float]) -> None:
+    """Positions at rest follow one another over an angle: the torque is a cos(angle) + k angle."""
+    size, mass, rate = scale
+    numbers = {"m": 2.0 * mass, "L": size, "k": 3.0 * mass * (size * rate) ** 2}
+    g0 = 9.0 * size * rate**2
+    m = kp.Model("arm", gravity=(0, -g0), parameters=numbers)
+    m.ground.points(O=(0, 0))
+    m.bar("arm", mass="m", length="L", ends=("O", "P"))
+    m.revolute("O", "ground.O", "arm.O")
+    m.torsion_spring("spring", "ground", "arm", stiffness="k", free_angle=0)
+    turn = kp.InverseDynamics(over="arm.angle", range=(-0.4, 1.5), n=20, static=True)
+    case = kp.Case(m, {"set": {"arm.angle": 0.0}}, [turn])
+    g = kp.gradient(case, ["over.effort.t_max", "over.effort.max"], list(numbers))
+
+    def place(**of: Any) -> Any:
+        return np.arcsin(of["k"] / (of["m"] * g0 * of["L"] / 2))
+
+    def most(**of: Any) -> Any:
+        at = place(**of)
+        return of["m"] * g0 * of["L"] / 2 * np.cos(at) + of["k"] * at
+
+    agrees(g, "over.effort.t_max", place, numbers, 1e-6)
+    agrees(g, "over.effort.max", most, numbers, 1e-9)

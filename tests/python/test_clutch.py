@@ -3,6 +3,7 @@
 import kempe as kp
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 EXACT = kp.DOP853(rtol=1e-12, atol=1e-14)
 #: Inertias in kg·m² and rates in rad/s.
@@ -115,3 +116,89 @@ def test_a_clutch_needs_two_bodies_and_a_capacity() -> None:
     m.clutch("clutch", "ground", "disc", capacity=-1)
     with pytest.raises(kp.ModelError, match=r"clutch\.capacity: must not be negative"):
         m.compile()
+
+
+#: Capacities that become zero or very small while the brake holds, over that of another brake.
+FADING = ["1 - 0.4*s", "max(0, 1 - 0.4*s)", "max(1e-9, 1 - 0.4*s)", "cos(s)", "exp(-20*s)"]
+
+
+@pytest.mark.parametrize("first", ["fading", "steady"])
+@pytest.mark.parametrize("law", FADING)
+@pytest.mark.parametrize("scale", SCALES)
+def test_one_of_two_brakes_fades_while_both_hold(
+    scale: tuple[float, float], law: str, first: str
+) -> None:
+    """The drum slips where its torque is the sum of both capacities, whatever holds more before."""
+    inertia, rate = scale
+    most = inertia * rate**2
+    m = kp.Model("brakes", gravity=(0, 0), parameters={"w": rate})
+    m.ground.points(O=(0, 0))
+    m.body("drum", mass=1.0, inertia=inertia, points={"O": (0, 0)})
+    m.revolute("pin", "ground.O", "drum.O")
+    m.torque("drive", "drum", torque=f"{0.3 * most}*w*t")
+    fading = f"{most}*({law.replace('s)', '(w*t))').replace('*s', '*w*t')})"
+    for name in sorted(["fading", "steady"], key=lambda name: name != first):
+        m.clutch(name, "ground", "drum", capacity=fading if name == "fading" else 2 * most)
+    start = kp.assemble(m, set={"drum.omega": 0.0})
+    sol = kp.dynamics(m, start, t_end=8.0 / rate, output_step=0.1 / rate, method=EXACT)
+
+    def capacity(s: float) -> float:
+        values = {"cos": np.cos(s), "exp": np.exp(-20 * s)}
+        own = values.get(law[:3], 1 - 0.4 * s)
+        return float(2.0 + max(own, 1e-9 if "1e-9" in law else 0.0))
+
+    slip = brentq(lambda s: 0.3 * s - capacity(s), 1.0, 8.0, xtol=1e-14)
+    assert sol.events["steady.slip"].t * rate == pytest.approx([slip], rel=1e-9)
+    assert sol.events["fading.slip"].t * rate == pytest.approx([slip], rel=1e-9)
+    held = sol.t * rate < slip
+    total = sol["fading.torque"] + sol["steady.torque"]
+    np.testing.assert_allclose(total[held], -0.3 * most * rate * sol.t[held], atol=1e-9 * most)
+    limits = np.array([capacity(s) - 2.0 for s in sol.t[held] * rate])
+    assert (abs(sol["fading.torque"][held]) <= most * (limits + 1e-9)).all()
+
+
+@pytest.mark.parametrize("first", ["slide", "brake"])
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_friction_of_a_slide_fades_while_a_brake_holds_its_pinion(size: float, first: str) -> None:
+    mass, g = 2.0, 9.81
+    m = kp.Model("rack", gravity=(0, 0))
+    m.ground.points(O=(0, 0), W=(0, size))
+    m.body("rack", mass=mass, inertia=mass * size**2, points={"P": (0, 0)})
+    m.body("wheel", mass=mass, inertia=mass * size**2, points={"W": (0, 0)})
+    m.translational("slide", "ground.O", "rack.P")
+    m.revolute("shaft", "ground.W", "wheel.W")
+    m.rack("teeth", "rack.P", "wheel.W", radius=size)
+    weight, w = mass * g, np.sqrt(g / size)
+    m.generalized_force("push", "rack.x", value=f"{0.3 * weight * w}*t")
+    for name in sorted(["slide", "brake"], key=lambda name: name != first):
+        if name == "slide":
+            m.friction("rubs", "slide", kinetic=0.5, load=f"{2 * weight}*(1 - {0.4 * w}*t)")
+        else:
+            m.clutch("brake", "ground", "wheel", capacity=2 * weight * size)
+    start = kp.assemble(m, set={"rack.vx": 0.0, "wheel.angle": 0.0})
+    sol = kp.dynamics(m, start, t_end=8 / w, method=EXACT)
+    assert sol.events["brake.slip"].t * w == pytest.approx([2 / 0.3], rel=1e-9)
+    # half of the force above that of the brake acts on the rack
+    past = 8 - 2 / 0.3
+    assert sol["rack.vx"][-1] == pytest.approx(0.3 * g / w * past**2 / 4, rel=1e-8)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_a_brake_fades_beside_a_free_wheel_without_load(scale: tuple[float, float]) -> None:
+    """The drum comes to rest, and stays there when the brake has no capacity any more."""
+    inertia, rate = scale
+    most = inertia * rate**2
+    m = kp.Model("brakes", gravity=(0, 0))
+    m.ground.points(O=(0, 0))
+    m.body("drum", mass=1.0, inertia=inertia, points={"O": (0, 0)})
+    m.revolute("pin", "ground.O", "drum.O")
+    m.clutch("brake", "ground", "drum", capacity=f"{most}*(1 - {0.3 * rate}*t)")
+    m.clutch("sprag", "ground", "drum", capacity=0.7 * most, one_way=True)
+    m.clutch("small", "ground", "drum", capacity=f"{0.1 * most}*(1 - {0.4 * rate}*t)", one_way=True)
+    start = kp.assemble(m, set={"drum.omega": 0.5 * rate, "drum.angle": 0.0})
+    sol = kp.dynamics(m, start, t_end=6.0 / rate, method=EXACT)
+    # 0.5 = t - 0.15 t²
+    stop = (1 - np.sqrt(1 - 0.3)) / 0.3
+    assert sol.events["brake.stick"].t * rate == pytest.approx([stop], rel=1e-9)
+    assert sol["drum.omega"][-1] == pytest.approx(0.0, abs=1e-12 * rate)
+    assert sol["drum.angle"][-1] == pytest.approx(0.5 * stop - stop**2 / 2 + 0.05 * stop**3)

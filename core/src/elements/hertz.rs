@@ -190,9 +190,11 @@ impl<S: Real> Hertz<S> {
     fn elastic(&self, depth: S) -> S {
         match self.elastic {
             Elastic::Power(stiffness, exponent) => {
-                let squared = depth * depth;
-                let bend = (exponent - S::one()) * depth.abs().ln();
-                stiffness * S::select(squared, depth * bend.exp(), depth)
+                let (squared, above) = (depth * depth, exponent - S::one());
+                let bend = above * depth.abs().ln();
+                // at first touch the law is stiff only if it is linear
+                let touch = S::select(above, S::zero(), depth);
+                stiffness * S::select(squared, depth * bend.exp(), touch)
             }
             Elastic::Cylinders(cylinders) => cylinders.force(depth),
         }

@@ -21,6 +21,7 @@ pub mod iteration;
 mod jumps;
 pub mod kinematics;
 mod laws;
+pub mod leading;
 mod light;
 pub mod mass;
 pub mod measured;

@@ -207,13 +207,15 @@ impl Sensitivity {
         out
     }
 
-    /// Φ_qᵀ λ - Q and Φ with derivatives, at rest, shape (n_q + n_rows). Forces that depend on reactions are zero.
+    /// Φ_qᵀ λ - Q and Φ with derivatives, at rest, shape (n_q + n_rows). Q has the loads of joints. Friction, which
+    /// depends on reactions, is zero.
     pub fn statics(&mut self, t: Slope, q: &[Slope], lam: &[Slope]) -> Vec<Slope> {
         let rest = vec![Slope::constant(0.0); q.len()];
         let mut out = self.balance_of((t, q, &rest), &rest, lam);
         let Self { model, motions, powers, compiled, applied, .. } = self;
         let acting = Acting { z: &[], lam: None, t };
         forces::generalized(model, compiled, motions, acting, applied, powers);
+        reactions::add_loads(model, motions, t, lam, applied);
         out.iter_mut().zip(&*applied).for_each(|(out, q)| *out -= *q);
         out.extend(self.open(t, q));
         out

@@ -6,9 +6,8 @@ use crate::analyses::equilibrium::Options;
 use crate::analyses::measures::Measure;
 use crate::analyses::signals::Seen;
 use crate::analyses::State;
-use crate::equations::kinematics::Motions;
+use crate::equations::reactive;
 use crate::equations::sensitivity::{constants, variables_from, Sensitivity, Slope, ABREAST};
-use crate::equations::{dense, reactive};
 use crate::expression::{Symbol, Tape};
 use crate::math::{indexed, Complex, Field, Listed, Real, ShortArray};
 use crate::model::{column_scales, row_scales, Blueprint, ConstraintItem, Model};
@@ -216,20 +215,20 @@ fn matrix(model: &Model, state: &State, lam: &[Slope]) -> Vec<f64> {
     let mut matrix = vec![0.0; (n + m) * (n + m)];
     let mut over = Sensitivity::new(model.lift());
     let t = Slope::constant(state.t);
-    for first in (0..n).step_by(ABREAST) {
-        let q = variables_from(first, &state.q);
-        for (row, r) in over.statics(t, &q, lam).iter().enumerate() {
-            for (place, slope) in r.slope.iter().enumerate().take(n - first) {
+    let mut fill = |first: usize, end: usize, all: &[Slope]| {
+        for (row, r) in all.iter().enumerate() {
+            for (place, slope) in r.slope.iter().enumerate().take(end - first) {
                 matrix[row * (n + m) + first + place] = *slope;
             }
         }
+    };
+    for first in (0..n).step_by(ABREAST) {
+        fill(first, n, &over.statics(t, &variables_from(first, &state.q), lam));
     }
-    let motions = Motions::at_rest(&model.layout, &state.q);
-    let jacobian = dense::jacobian(model, &motions, state.t);
-    for row in 0..m {
-        for column in 0..n {
-            matrix[column * (n + m) + n + row] = jacobian[row * n + column];
-        }
+    // beside -Φ_qᵀ λ, gear teeth have a load that depends on λ
+    let (q, known) = (constants(&state.q), lam.iter().map(|x| x.value).list());
+    for first in (0..m).step_by(ABREAST) {
+        fill(n + first, n + m, &over.statics(t, &q, &variables_from(first, &known)));
     }
     matrix
 }

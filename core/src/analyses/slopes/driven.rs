@@ -29,3 +29,16 @@ pub(super) fn state(
     state.resize(model.layout.n_y(), Slope::constant(f64::NAN));
     Ok(state)
 }
+
+/// Replaces the rates of q, v and z, the first `n_q` of which are zero, where positions at rest follow one another: q
+/// changes along them, and nothing else. `state` gives q, v, z and the rates of q along such positions.
+pub(super) fn follow(state: impl FnOnce() -> Option<[Vec<f64>; 4]>, rates: &mut [f64], n_q: usize) {
+    let (of_q, others) = rates.split_at_mut(n_q);
+    if of_q.iter().all(|v| *v == 0.0) {
+        let along = state().map(|[.., along]| along).filter(|along| along.len() == n_q);
+        if let Some(along) = along {
+            of_q.copy_from_slice(&along);
+            others.fill(0.0);
+        }
+    }
+}

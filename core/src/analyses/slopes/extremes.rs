@@ -9,6 +9,8 @@ use crate::math::ShortArray;
 const FLAT: f64 = 1e-4;
 /// Part of the span of a measure within a step below which its change counts as zero at an end of the run.
 const STILL: f64 = 1e-9;
+/// Part of its change beside an extreme value by which the rate of a measure may differ from a line there.
+const LINEAR: f64 = 0.25;
 /// Derivatives of two equally large maxima that differ by less than this fraction are equal.
 const ALIKE: f64 = 1e-6;
 
@@ -57,8 +59,10 @@ impl Stationary {
             |of: &dyn Fn(&SlopeRow) -> f64| Quartic::through([of(a), of(b), of(row), of(c), of(e)]);
         let rate = sample(&|row| row.values[k][1]);
         let second = rate.slope(0.0);
-        if second == 0.0 {
-            return Ok(fixed()); // a constant value
+        if rate.bends() >= LINEAR * second.abs() {
+            let text =
+                format!("the value is flat near t = {t:.6} s, so that this time is not determined");
+            return Ok(Self { of_time: Err(text), ..fixed() });
         }
         // the value is stationary at t + late d
         let late = -row.values[k][1] / second;
@@ -109,6 +113,11 @@ impl Quartic {
         let third = ((e - a) - 2.0 * (c - b)) / 12.0;
         let fourth = ((a + e) - 4.0 * (b + c) + 6.0 * o) / 24.0;
         Self([o, first, second, third, fourth])
+    }
+
+    /// The largest coefficient of the third and the fourth degree.
+    fn bends(&self) -> f64 {
+        self.0[3].abs().max(self.0[4].abs())
     }
 
     fn value(&self, x: f64) -> f64 {

@@ -22,8 +22,8 @@ pub(super) enum StateSlopes<'a> {
     Driven(Vec<Sensitivity>, States<'a>),
 }
 
-/// The states of a motion at any time.
-pub(super) type States<'a> = &'a dyn Fn(f64) -> Option<[Vec<f64>; 3]>;
+/// The states of a motion at any time, q, v and z, and for positions at rest that follow one another the rates of q.
+pub(super) type States<'a> = &'a dyn Fn(f64) -> Option<[Vec<f64>; 4]>;
 
 /// Reads measures with derivatives.
 pub(super) struct Reader<'a> {
@@ -232,7 +232,7 @@ impl<'a> Reader<'a> {
                 Ok((0..ode.blocks.len()).map(|b| ode.state(b, &y)).list())
             }
             StateSlopes::Driven(blocks, states) => {
-                let [q, v, z] = states(t).ok_or("its state is not known")?;
+                let [q, v, z, _] = states(t).ok_or("its state is not known")?;
                 let Self { model, workspace, .. } = self;
                 let of = |block| driven::state((model, workspace), block, t, [&q, &v, &z]);
                 blocks.iter_mut().map(of).collect()
@@ -286,7 +286,7 @@ impl<'a> Reader<'a> {
         y: &[f64],
         (solves, triggers): (bool, &[Trigger]),
     ) -> Result<Vec<[f64; 2]>, String> {
-        let Self { model, workspace, over_time, measures, dissipation, .. } = self;
+        let Self { model, workspace, over_time, measures, dissipation, course, .. } = self;
         let model: &Model = model;
         let failed = |_| format!("the equations of motion have no unique solution at t = {t:.6} s");
         let [q, v, z, works] = model.layout.split(y);
@@ -296,7 +296,10 @@ impl<'a> Reader<'a> {
         let mut dz = vec![0.0; z.len()];
         workspace.state_rates(model, t, &mut dz);
         let powers = workspace.powers(model, v);
-        let rates = [v, workspace.a(), &dz].concat();
+        let mut rates = [v, workspace.a(), &dz].concat();
+        if let StateSlopes::Driven(_, states) = course {
+            driven::follow(|| states(t), &mut rates, v.len());
+        }
         let along = |(x, rate): (&f64, &f64)| {
             let mut slope = [0.0; ABREAST];
             slope[0] = *rate;

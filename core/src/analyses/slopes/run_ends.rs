@@ -12,24 +12,29 @@ pub(super) fn state_at(
     run: &Run,
     t: f64,
     rests: bool,
-) -> Option<[Vec<f64>; 3]> {
+) -> Option<[Vec<f64>; 4]> {
     let layout = &whole.model().layout;
-    if let Some(k) = run.trajectory.t.iter().position(|known| *known == t) {
+    let known = run.trajectory.t.iter().position(|known| *known == t).map(|k| {
         let of = &run.trajectory;
         let row = |table: &[f64], width: usize| table[k * width..(k + 1) * width].to_vec();
-        return Some([row(&of.q, layout.n_q), row(&of.v, layout.n_q), row(&of.z, layout.n_z)]);
+        [row(&of.q, layout.n_q), row(&of.v, layout.n_q), row(&of.z, layout.n_z), Vec::new()]
+    });
+    if known.is_some() && !rests {
+        return known;
     }
-    let y = run.dense.as_ref()?.at(&[t]);
+    let Some(dense) = &run.dense else { return known };
+    let y = dense.at(&[t]);
     let [q, v, z, _] = layout.split(&y);
     let Some(projection) = run.projection else {
-        return Some([q.to_vec(), v.to_vec(), z.to_vec()]);
+        return Some([q.to_vec(), v.to_vec(), z.to_vec(), Vec::new()]);
     };
     let states = States { t: &[t], q, v, z };
-    let [q, mut v] = whole.project(states, projection).ok()?;
-    if rests {
-        v.fill(0.0);
-    }
-    Some([q, v, z.to_vec()])
+    let [q, v] = whole.project(states, projection).ok()?;
+    Some(match (rests, known) {
+        (false, _) => [q, v, z.to_vec(), Vec::new()],
+        (true, Some([q, none, z, _])) => [q, none, z, v],
+        (true, None) => [q, vec![0.0; v.len()], z.to_vec(), v],
+    })
 }
 
 /// The function of the condition that ended a run, if one did.

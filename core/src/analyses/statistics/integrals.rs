@@ -2,8 +2,8 @@
 //!
 //! In each step of the interpolant, Gauss's rule with two points at the ends of the step (Lobatto's rule) is exact for
 //! polynomials of degree 15 with nine points, and of degree 7 with five points. Its error has order 17 or 9 in the step.
-//! That of an interpolant has at most order 10, and at most order 6 if its degree is 5 or less, where five points
-//! suffice.
+//! That of an interpolant has at most order 10, and at most order 6 if its degree is 4 or less, where five points
+//! suffice. Motions that drivers determine have no error between the outputs. Their interpolant has degree 5.
 //!
 //! A quantity that jumps or has a kink within a step, or that a step does not resolve, shows in its series of Legendre
 //! polynomials, whose coefficients do not decay: such steps get nine points, and are then halved. Events, switches and
@@ -26,7 +26,7 @@ const FIVE: [[f64; 2]; 3] =
 /// Number of points in a part of a step.
 const POINTS: usize = 9;
 /// Highest degree of an interpolant for which five points suffice.
-const LOW: usize = 5;
+const LOW: usize = 4;
 /// Number of times that are read together. It is a multiple of the number of lanes, so that the grouping of states does
 /// not depend on the blocks.
 const BLOCK: usize = 1024;

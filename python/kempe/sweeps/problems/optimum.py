@@ -32,6 +32,9 @@ _APART, _ALIKE = 1e-3, 1e-4
 _REST, _FLAT = 0.05, 1e-6
 #: Room in a limit, as a part of its size, with which it holds with equality.
 _TIGHT = 1e-4
+#: Distances from a bound, as parts of its range, with which a value is at the bound: always, and if
+#: the bound has a worth, because searches end with rounding errors.
+_AT, _NEAR = 1e-9, 1e-6
 #: The weight with which the shares of the load cases make up 1.
 _WEIGHT = 1e3
 
@@ -334,10 +337,13 @@ def _active(problem: Problem, run: Run) -> dict[str, float]:
     if problem.others:
         return {}
     shares, rates = problem.shares(run.row), problem.rates(run.row)
-    texts, slopes, per_unit = [], [], []
+    texts: list[str] = []
+    doubtful: set[int] = set()
+    slopes, per_unit = [], []
     for k, bound in enumerate(problem.bounds):
         for end, sign, value in ((0.0, 1.0, bound.least), (1.0, -1.0, bound.largest)):
-            if abs(shares[k] - end) < 1e-9:
+            if (away := abs(shares[k] - end)) < _NEAR:
+                doubtful |= {len(texts)} if away >= _AT else set()
                 texts.append(f"{bound.name} {'>=' if sign > 0.0 else '<='} {_short(value)}")
                 slopes.append(sign * np.eye(len(shares))[k])
                 per_unit.append(1.0 / rates[k])
@@ -360,10 +366,10 @@ def _active(problem: Problem, run: Run) -> dict[str, float]:
     )
     if rest > _REST and scale > _FLAT * abs(run.objective):  # a corner of the objective
         return dict.fromkeys(texts, float("nan"))
-    pairs = zip(texts, factors[: len(texts)], per_unit, strict=True)
-    found = dict.fromkeys(texts, 0.0)
-    for text, factor, unit in pairs:  # a text may occur twice: a bound is also a limit
-        found[text] += float(factor * scale * abs(unit))
+    found: dict[str, float] = {}
+    for k, text in enumerate(texts):  # a text may occur twice: a bound is also a limit
+        if k not in doubtful or factors[k] > 0.0:
+            found[text] = found.get(text, 0.0) + float(factors[k] * scale * abs(per_unit[k]))
     return found
 
 

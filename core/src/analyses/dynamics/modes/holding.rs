@@ -73,10 +73,11 @@ pub(super) fn decide(
     }
     let contact =
         |k: &usize| !matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
-    // forces whose mode has just ended come last
+    // forces whose mode has just ended come last, and friction with a small limit follows that with a large one
     let held = |k: &usize| still_holds(model, place, *k, mode_of(before, *k));
     let ended = |k: &usize| fired.contains(k) && held(k) || !jumped && ceased.contains(k);
-    candidates.order_by_key(|k| (ended(k), !contact(k), *k));
+    let weak = place.weak(model, &candidates.iter().copied().filter(|k| !contact(k)).list());
+    candidates.order_by_key(|k| (weak.contains(k), ended(k), !contact(k), *k));
     let ended: Vec<usize> = candidates.iter().copied().filter(ended).list();
     let mut modes = hold(model, place, modes, (&candidates, &ended))?;
     give_slack(model, place, (before, touching), &mut modes);

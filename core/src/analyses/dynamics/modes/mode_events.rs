@@ -3,7 +3,7 @@
 use super::place::drivers_rest;
 use crate::analyses::signals::Seen;
 use crate::elements::{Behaviour, Mode};
-use crate::equations::forces;
+use crate::equations::{forces, leading};
 use crate::integrate::{Bounds, Direction};
 use crate::math::Real;
 use crate::model::{DriverSet, Model};
@@ -27,7 +27,8 @@ pub enum ModeFunction {
         /// The function is negative where these drivers stand still.
         held_by: DriverSet,
     },
-    /// The reserve until friction slips or a contact separates, and the slack of the mode.
+    /// The reserve until friction slips, a contact separates or friction can no longer lead others, and the slack of the
+    /// mode.
     Reserve {
         /// The force.
         force: usize,
@@ -85,7 +86,9 @@ impl ModeFunction {
                 S::constant(sign) * threshold(force) + S::constant(slack)
             }
             Self::Reserve { force, slack } => {
-                forces::reserve(model, force, seen.motions, acting) + S::constant(slack)
+                let own = forces::reserve(model, force, seen.motions, acting) + S::constant(slack);
+                let lead = leading::lead(model, force, seen.motions, acting, slack);
+                lead.map_or(own, |lead| own.min(lead))
             }
             Self::Begins { force, at, .. } => S::constant(at) - threshold(force).abs(),
             Self::Never => S::constant(1.0),

@@ -7,7 +7,7 @@ pub use crate::analyses::rigid::{is_rigid as is_contact, unit};
 use crate::elements::Mode;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
-use crate::equations::{constraints, energy};
+use crate::equations::{constraints, energy, leading};
 use crate::equations::{Gains, Workspace};
 use crate::math::Listed;
 use crate::math::{Jet, Lift, Real, ShortArray};
@@ -16,6 +16,9 @@ use crate::model::{column_scales, row_scales, size, DriverSet, ForceMode, Model}
 /// Speeds of friction below this value count as zero, relative to the speeds of the mechanism; accelerations
 /// likewise.
 pub const STILL: f64 = 1e-9;
+
+/// Limit of friction below which it does not lead, relative to the largest one.
+const WEAK: f64 = 1e-2;
 
 /// Largest gap of a contact that touches: relative to the size of the mechanism, or in rad.
 const TOUCHING: f64 = 1e-10;
@@ -89,6 +92,25 @@ impl<'y> StateAt<'y> {
         let motions = Motions::at(&model.layout, q, v);
         let acting = Acting { z, lam: None, t: self.t };
         forces.iter().map(|k| forces::threshold(model, *k, &motions, acting)).list()
+    }
+
+    /// The friction whose limit is small beside the largest one.
+    pub fn weak(&self, model: &Model, friction: &[usize]) -> Vec<usize> {
+        if friction.len() < 2 {
+            return Vec::new();
+        }
+        let ([q, v, z], solved) = (self.state(model), self.solved(model).ok());
+        let motions = Motions::at(&model.layout, q, v);
+        let acting = Acting { z, lam: solved.as_ref().map(Workspace::lam), t: self.t };
+        let limit = |k: &usize| leading::limit(model, *k, &motions, acting, 0.0);
+        let limits = friction.iter().map(limit).list();
+        // friction in one direction may have no part in the force that is needed
+        let both = |(k, own): (&usize, &f64)| match model.forces[*k].element.only_pushes() {
+            true => 0.0,
+            false => *own,
+        };
+        let most = WEAK * largest(&friction.iter().zip(&limits).map(both).list());
+        friction.iter().zip(limits).filter(|(_, own)| *own < most).map(|(k, _)| *k).list()
     }
 
     /// The sides at which contacts touch.
