@@ -30,9 +30,10 @@ fn weight<S: Real>(model: &Model<S>, k: usize) -> S {
     S::constant(if turns { 1.0 / size(model) } else { 1.0 })
 }
 
-/// The limit of friction `k` that holds, beyond a small part of the limits of the friction that follows it; of friction in
-/// one direction, which may have no part in the force, what it carries counts, if the multiplier exceeds `noise`. Where the result is negative, another one
-/// has to lead, because the efforts of the others are found from its own. None if none follows.
+/// The limit of friction `k` that holds, beyond a small part of the limits of the friction that follows it. Friction in
+/// one direction may have no part in the force: what it carries counts there, if the multiplier exceeds `noise`. Where
+/// the result is negative, another one has to lead, because the efforts of the others are found from its own. None if
+/// none follows.
 pub fn lead<S: Real>(
     model: &Model<S>,
     k: usize,
