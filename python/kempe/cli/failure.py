@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 from rich.text import Text
@@ -40,8 +40,9 @@ def print_error(error: errors.KempeError) -> None:
     console.print(Text.assemble(("error: ", "bold red"), message))
     for problem in error.problems:
         # messages of the core contain them, with lines or without their path
-        if problem.message.removeprefix(f"{problem.path}: ") not in message:
-            console.print(Text(f"  {problem.message}"))
+        bare = problem.message.removeprefix(f"{problem.path}: ")
+        if bare not in message:
+            console.print(Text(f"  {replace(problem, message=bare)}"))
 
 
 @contextmanager
