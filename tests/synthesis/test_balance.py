@@ -155,6 +155,27 @@ def test_the_inertia_of_a_counterweight_counts() -> None:
     assert best.fun < 0.9 * mean(np.zeros(2))
 
 
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_a_place_on_a_curve_is_not_a_coordinate_of_a_counterweight(size: float) -> None:
+    # an eccentric: its follower rises by the projection of its centre, as in a Scotch yoke
+    m = kp.Model("eccentric", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    rim = {"rim": {"circle": (0.3 * size, 0, size)}}
+    m.body("cam", mass=2, inertia=size**2, center=(0.3 * size, 0), points={"O": (0, 0)}, curves=rim)
+    m.body("follower", mass=1e-9, inertia=1e-9 * size**2, points={"F": (0, 0)})
+    m.revolute("O", "ground.O", "cam.O")
+    m.translational("guide", "ground.O", "follower.F", axes=("90 deg", "90 deg"))
+    m.point_on_curve("touch", "follower.F", "cam.rim")
+    m.coordinate_driver("drive", "cam.angle", value="2*pi*t")
+    start = {"set": {"cam.angle": 0.0}, "guess": {"follower.y": size}}
+    case = kp.Case(m, start, [kp.InverseDynamics(t_end=1, output_step=0.01)])
+    assert case.start().compiled.column_names()[-1] == "touch.u"
+    found = kp.design.balance(case, of="torque", radius=0.2 * size)
+    one = found.masses["cam"]
+    assert one.mass * np.array(one.at) == pytest.approx([-0.6 * size, 0], abs=1e-6 * size)
+    assert found.after < 1e-6 * found.before
+
+
 @pytest.mark.parametrize("of", ["moment", "torque"])
 def test_two_counterweights_are_better_than_their_neighbours(of: str) -> None:
     case, _ = four_bar(1.0, 1.0, 4.0, gravity=9.81 if of == "torque" else 0.0)

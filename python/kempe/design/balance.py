@@ -22,6 +22,8 @@ from kempe.results.solution import Solution
 if TYPE_CHECKING:
     from kempe.case import Case
 
+#: Change of a motion that is an error of runs: angles in rad, lengths as a part of the largest.
+_MOVED = 1e-6
 #: A counterweight below this share of the largest moment of mass is left out.
 _NONE = 1e-9
 
@@ -139,6 +141,7 @@ class _Measure:
     """What is balanced, over the motion of a case.
 
     Attributes:
+        most: the changes of the coordinates that are errors of runs, (n_q of the bodies,).
         scale: the mass of a counterweight that is large enough to be felt, kg.
         base: its values at the instants without counterweights, weighted by their share of time.
         before: its largest magnitude.
@@ -156,7 +159,13 @@ class _Measure:
         self.drive = f"{drivers[0]}.effort" if drivers else ""
         solution = _motion(case)
         self.t = instants(solution) if solution.dense is not None else solution.t
-        self.q = solution(self.t).q
+        # the bodies come first in q, in the order in which they were added
+        units = solution.compiled.column_units()
+        count = sum(body.count for body in solution.compiled.bodies.values())
+        self.q = solution(self.t).q[:, :count]
+        angles = np.array([unit == "rad" for unit in units[:count]])
+        length = float(np.abs(self.q[:, ~angles]).max(initial=0.0)) or 1.0
+        self.most = _MOVED * np.where(angles, 1.0, length)
         # the square root of the weights of the trapezoidal rule
         share = np.abs(np.gradient(self.t)) / np.ptp(self.t)
         share[[0, -1]] /= 2
@@ -187,8 +196,8 @@ class _Measure:
             ModelError: the motion changes too.
         """
         solution = _motion(_with(self.case, _pivots(self.case), masses))
-        moved = solution(self.t).q[:, : self.q.shape[1]] - self.q
-        if np.abs(moved).max() > 1e-6 * np.abs(self.q).max():
+        moved = solution(self.t).q[:, : len(self.most)] - self.q
+        if (np.abs(moved) > self.most).any():
             raise ModelError(
                 "counterweights change the motion of the case, which must not depend on them",
                 hint="add a coordinate_driver and use inverse_dynamics, or kp.optimize with "

@@ -91,11 +91,10 @@ def motion(name: str, solution: Solution) -> Section:
 
 
 def _velocities(solution: Solution, figures: Figures) -> Sequence[Block]:
-    bodies = solution.compiled.bodies
-    captions = {
-        name: f"Velocity and acceleration of {f'body {info.shown_number}, ' * info.is_shown}{name}"
-        for name, info in bodies.items()
-    }
+    captions = {}
+    for name, info in solution.compiled.bodies.items():
+        of = f"body {info.shown_number}, {name}" if info.is_shown else name
+        captions[name] = f"Velocity and acceleration of {of}"
     return figures.about(captions)
 
 
