@@ -334,6 +334,21 @@ def lifted(of: Units) -> Made:
     return Made(m, [*measures, "O.force.final"], end=2.5, changes=True)
 
 
+def limited(of: Units) -> Made:
+    """A drive that gives way to a load, and follows its law again."""
+    s = of.size
+    m = of.model(L=(1, s), w=(2, of.rate), F=(0.6, of.torque), k=(0.2, 1), weight=False)
+    m.ground.points(O=(0, 0))
+    of.bar(m, "bar", "L", ("O", "A"))
+    m.revolute("O", "ground.O", "bar.O")
+    limit = f"F * (1 - k * bar.omega / {of.rate!r})"
+    m.coordinate_driver("drive", "bar.angle", value="0.4 * sin(w * t)", limit=limit)
+    load = f"{of.torque!r} * sin(1.3 * w * t)"
+    m.generalized_force("load", "bar.angle", value=load)
+    measures = ["bar.angle.final", "drive.effort.rms", "drive.power.mean", "O.force.max"]
+    return Made(m, [*measures, "energy.work.final"], end=4.0, changes=True)
+
+
 DRIVEN = ("kinematics", "inverse_dynamics", "dynamics")
 JOINTS: list[Maker] = [
     slide_on_a_bar,
@@ -353,4 +368,5 @@ JOINTS: list[Maker] = [
     coupled,
     written,
     lifted,
+    limited,
 ]

@@ -58,8 +58,8 @@ def elements() -> list[Element]:
     listed = re.sub(r"\bForces \{[^}]*\}", "", listed)
     calls = re.findall(r"(?ms)^(?:constraints|forces)! \{(.*?)^\}", listed)
     groups = {"Joints", "Drivers"}
-    # parts of a contact and of a joint, and joints with play; a file writes contacts and joints
-    groups |= {"ContactFriction", "SlipFriction", "Play", "LooseBelt"}
+    # parts of contacts, joints and drivers, and joints with play; a file writes the whole
+    groups |= {"ContactFriction", "SlipFriction", "DriveLimit", "Play", "LooseBelt"}
     names = [name for call in calls for name in re.findall(r"\w+", call) if name not in groups]
     return [element(name) for name in names]
 

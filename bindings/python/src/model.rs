@@ -313,6 +313,7 @@ fn constraint(model: &Model, k: usize) -> Value {
         "group": item.group.section(),
         "type": item.element.kind(),
         "is_shown": item.element.in_files(),
+        "is_limited": item.companion.is_some_and(|k| model.forces[k].element.driver().is_some()),
         "i": i,
         "j": j,
         "point_i": pair(&item.element.attachment(0).s),

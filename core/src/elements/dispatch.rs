@@ -129,6 +129,18 @@ macro_rules! constraints {
             pub fn drives(&self) -> Option<&Followed<S>> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::drives(e),)+)+ }
             }
+            /// The law of a driver.
+            pub fn value(&self) -> Option<&S> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::value(e),)+)+ }
+            }
+            /// The largest effort of a driver.
+            pub fn limit(&self) -> Option<&S> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::limit(e),)+)+ }
+            }
+            /// Lets a driver have any effort.
+            pub fn lift_limit(&mut self) {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::lift_limit(e),)+)+ }
+            }
             /// The condition at which a driver is released.
             pub fn release(&self) -> Option<&str> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::release(e),)+)+ }

@@ -129,6 +129,14 @@ macro_rules! forces {
             pub fn joint(&self) -> Option<&Constraint<S>> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::joint(e),)+ }
             }
+            /// The driver whose effort the force limits.
+            pub fn driver(&self) -> Option<&Constraint<S>> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::driver(e),)+ }
+            }
+            /// Lets the force act in place of its driver, or not.
+            pub fn take_over(&mut self, acts: bool) {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::take_over(e, acts),)+ }
+            }
             /// The joint on whose reaction the force depends.
             pub fn reaction(&self) -> Option<JointId> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::reaction(e),)+ }

@@ -7,6 +7,7 @@ use super::group::Group;
 use super::joint_trait::{At, Required, ResultQuantity};
 use super::measured::Measured;
 use super::mode::{Behaviour, Mode};
+use super::own_state::{OwnPowers, OwnState};
 use super::part::Part;
 use super::symbols::SceneSymbol;
 use super::{Constraint, ForceElement};
@@ -76,24 +77,6 @@ impl<S> Situation<'_, S> {
     pub fn j(&self) -> &Motion<S> {
         self.body(1)
     }
-}
-
-/// A first-order state of an element, such as the current of a motor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct OwnState {
-    /// Name within the element: `motor.current`.
-    pub name: &'static str,
-    /// SI unit.
-    pub unit: &'static str,
-}
-
-/// Powers of an element in addition to those of its wrenches, W; for example, those of a circuit.
-#[derive(Clone, Copy, Debug)]
-pub struct OwnPowers<S> {
-    /// Dissipated.
-    pub dissipated: S,
-    /// Supplied from outside.
-    pub applied: S,
 }
 
 /// A receiver of the wrenches of a force.
@@ -183,6 +166,19 @@ pub trait Force: Element {
     fn joint<S>(e: &Self::Over<S>) -> Option<&Constraint<S>> {
         let _ = e;
         None
+    }
+
+    /// The driver whose effort the force limits.
+    #[inline]
+    fn driver<S>(e: &Self::Over<S>) -> Option<&Constraint<S>> {
+        let _ = e;
+        None
+    }
+
+    /// Lets the force act in place of this driver, or not.
+    #[inline]
+    fn take_over<S>(e: &mut Self::Over<S>, acts: bool) {
+        let _ = (e, acts);
     }
 
     /// The field that contains the play of a joint, and its value, m.

@@ -32,12 +32,14 @@ mod joint_trait;
 mod kinds;
 mod line;
 mod line_foot;
+mod loose;
 mod measure;
 mod measured;
 mod mode;
 mod near;
 mod nearest;
 mod normal_fan;
+mod own_state;
 mod part;
 mod plain_bearing;
 mod plane_curve;
@@ -103,6 +105,7 @@ pub mod forces {
     mod clutch;
     mod contact;
     mod contact_friction;
+    mod drive_limit;
     mod friction;
     mod generalized_force;
     mod loose_belt;
@@ -122,6 +125,7 @@ pub mod forces {
     pub use clutch::Clutch;
     pub use contact::{Contact, Resting};
     pub use contact_friction::{ContactFriction, ContactSticking};
+    pub use drive_limit::DriveLimit;
     pub use friction::Friction;
     pub use generalized_force::GeneralizedForce;
     pub use loose_belt::LooseBelt;
@@ -159,13 +163,10 @@ pub use field::{Default, Field, Shape, TOLERANCES, UNITS_OF_EQUATIONS};
 pub use followed::{Acted, BodyId, Coordinate, CoordinateOf, Followed, JointId, QuantityOf, PLACE};
 pub use foot::{rim, rim_or_curves, Rim};
 use force_dispatch::forces;
-pub use force_trait::{Force, Held, OwnPowers, OwnState, Situation, Wrenches};
+pub use force_trait::{Force, Held, Situation, Wrenches};
 use forces::*;
 pub use group::Group;
-pub use joint_trait::{
-    At, Backlash, Equation, Fixes, Joint, Linearized, Moving, Required, ResultQuantity, Slips,
-    Strands,
-};
+pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving, Required, ResultQuantity};
 use joints::*;
 pub use kinds::{
     acted, bearing, body, condition, coordinate, curve, equation_unit, flag, frame, joint, law,
@@ -173,8 +174,10 @@ pub use kinds::{
     optional_only, optional_pair, optional_unit, pair, point, point_or_curves, side, terms, triple,
     two_texts, units, CurveOn, Frame, Kind, NormalLaw, Only, Optional, PointOn, Side, Source,
 };
+pub use loose::{Backlash, Slips, Strands};
 pub use measured::Measured;
 pub use mode::{Behaviour, Mode};
+pub use own_state::{OwnPowers, OwnState};
 pub use part::{Nature, Part};
 pub use plain_bearing::Bearing;
 pub use plane_curve::Curve;
@@ -231,6 +234,7 @@ forces! {
     Play,
     LooseBelt,
     SlipFriction,
+    DriveLimit,
     ContactFriction,
     BeamPiece,
     #[cfg(feature = "test-elements")] Lag,
@@ -333,5 +337,5 @@ pub fn elastic_piece(nodes: [BodyId; 4], numbers: PieceNumbers) -> ForceElement<
 
 /// The driver that holds a position quantity at a value. Assembly uses it for the quantities in `set`.
 pub fn holding(coordinate: Followed<Tape>, value: Tape) -> Constraint<Tape> {
-    Constraint::CoordinateDriver(CoordinateDriver { coordinate, value, release: None })
+    Constraint::CoordinateDriver(CoordinateDriver { coordinate, value, limit: None, release: None })
 }

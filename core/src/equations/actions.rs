@@ -45,7 +45,7 @@ pub fn reaction<S: Real>(
 ) -> Option<Wrench<S>> {
     let own = &acting.lam?[model.layout.constraints[k].rows.clone()];
     let mut sum = reactions::reaction(model, k, body, frame, motions, acting.t, own)?;
-    if let Some(friction) = model.constraints[k].friction {
+    if let Some(friction) = model.constraints[k].companion {
         let at = attached(model, k, body, motions, acting.t);
         each_wrench(model, friction, motions, acting, |_, on, w| {
             if on == body {
@@ -68,7 +68,8 @@ pub fn results_of_joint<S: Real>(
     let lam = acting.lam.unwrap_or_default();
     let own = &lam[model.layout.constraints[k].rows.clone()];
     reactions::results(model, k, motions, acting.t, own, out);
-    if let Some(friction) = model.constraints[k].friction {
+    let own = model.constraints[k].companion;
+    if let Some(friction) = own.filter(|own| model.forces[*own].element.driver().is_none()) {
         let first = out.len() - model.forces[friction].element.result_quantities().len();
         results_of_part(model, friction, motions, acting, &mut out[first..]);
     }

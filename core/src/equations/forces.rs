@@ -3,6 +3,7 @@
 
 use super::kinematics::Motions;
 use super::laws::{self, Laws};
+use super::measured::lag;
 use super::powers::Powers;
 use super::reactions::{self, Frame};
 use super::Compiled;
@@ -220,6 +221,22 @@ fn following<S: Real>(
 /// The function whose zero may change the mode of force `k`.
 #[inline]
 pub fn threshold<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+) -> S {
+    if model.forces[k].element.driver().is_some() {
+        let still = vec![S::zero(); model.layout.n_q];
+        return lag(model, k, motions, &still, acting.t).rate;
+    }
+    threshold_of_state(model, k, motions, acting)
+}
+
+/// The [`threshold`] of a force that limits no driver. The threshold of a limit contains the rate of a law, which no jet
+/// gives in addition to its own derivatives.
+#[inline]
+pub fn threshold_of_state<S: Real>(
     model: &Model<S>,
     k: usize,
     motions: &Motions<S>,

@@ -2,7 +2,7 @@
 
 use super::kinematics::Motions;
 use super::laws::Laws;
-use crate::elements::{At, BodyId, Coordinate, Measured};
+use crate::elements::{At, BodyId, Constraint, Coordinate, Measured};
 use crate::expression::Tape;
 use crate::math::{Jet, Lift, Listed, Local, Pose, Real, Twist, Vec2};
 use crate::model::Model;
@@ -97,6 +97,41 @@ fn measured_of_part<S: Real>(
         }
     }
     values
+}
+
+/// The lag Φ of the driver whose effort force `k` limits, with its derivatives for accelerations `a`, shape (n_q). Zero for
+/// another force.
+pub fn lag<S: Real>(model: &Model<S>, k: usize, motions: &Motions<S>, a: &[S], t: S) -> Jet<S> {
+    let item = &model.forces[k];
+    let bodies: Vec<_> = item.bodies.iter().map(|body| moving(model, *body, motions, a)).list();
+    let t = Jet::new(t, S::one(), S::zero());
+    let at = At { bodies: &bodies, own: &[], t };
+    let mut lag = [Jet::zero()];
+    let residual = |driver: Option<&Constraint<Jet<S>>>, lag: &mut [Jet<S>]| {
+        driver.into_iter().for_each(|driver| driver.residual(&at, lag));
+    };
+    match &item.law {
+        None => residual(item.element.map(&mut |s| Jet::lift(*s)).driver(), &mut lag),
+        Some(law) => {
+            let coordinate = |body: BodyId, c: Coordinate| {
+                c.of(&moving(model, body, motions, a), &Twist::zero())
+            };
+            let [own, rates] = motions.internals();
+            let places = own.iter().zip(rates).enumerate();
+            let first = model.layout.n_q - own.len();
+            let own: Vec<_> = places.map(|(k, (u, rate))| Jet::new(*u, *rate, a[first + k])).list();
+            let (parameters, pieces) = (&model.parameters, &motions.pieces);
+            let own = [&own[..], &[]];
+            let values = Laws { parameters, t, coordinate, own, z: &[], pieces, function: None };
+            let driver = law.driver().map(|driver| {
+                let mut driver = driver.clone();
+                driver.lift_limit();
+                driver.map(&mut |tape: &Tape| tape.evaluate(&values))
+            });
+            residual(driver.as_ref(), &mut lag);
+        }
+    }
+    lag[0]
 }
 
 /// The position of a body-fixed point, with velocity and acceleration.

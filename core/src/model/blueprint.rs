@@ -54,7 +54,7 @@ pub struct Blueprint {
     /// follow each other.
     pub further: Arc<Vec<usize>>,
     /// The last forces are companions: of these forces, see [`Force::companion`](crate::elements::Force::companion), or
-    /// the friction of joints that may slip.
+    /// the friction of joints that may slip, and the limits of drivers.
     pub companions: Arc<Vec<Option<usize>>>,
     /// The modes of forces in a phase of a run. Forces that hold have the last constraints, in this order.
     pub modes: Vec<ForceMode>,
@@ -193,20 +193,33 @@ impl Blueprint {
         Arc::make_mut(&mut self.forces).extend(forces);
     }
 
-    /// Adds the companions of all forces, and of all joints that may slip.
-    pub(super) fn add_companions(&mut self, quantities: &dyn Quantities) {
+    /// Lets all drivers have any effort. Their limits are forces.
+    pub(super) fn lift_limits(&mut self) {
+        if self.constraints.iter().any(|(.., element)| element.limit().is_some()) {
+            let all = Arc::make_mut(&mut self.constraints).iter_mut();
+            all.for_each(|(.., element)| element.lift_limit());
+        }
+    }
+
+    /// Adds the companions of all forces, of all joints that may slip, and of all drivers with a limit.
+    pub(super) fn add_companions(
+        &mut self,
+        quantities: &dyn Quantities,
+        problems: &mut Vec<Problem>,
+    ) {
         let of_force = |(k, (name, _, force)): (usize, &LinkedForce)| {
             Some((Some(k), (name.clone(), &[][..], force.companion()?)))
         };
         let of_joint = |(k, (name, _, joint)): (usize, &LinkedConstraint)| {
-            let friction = slip::friction_of((JointId(k), name, joint), quantities)?;
-            Some((None, (name.clone(), &[][..], friction)))
+            let own = slip::companion_of((JointId(k), name, joint), quantities, problems)?;
+            Some((None, (name.clone(), &[][..], own)))
         };
         let forces = self.forces.iter().enumerate().filter_map(of_force);
         let joints = self.constraints.iter().enumerate().filter_map(of_joint);
         let found: (Vec<Option<usize>>, Vec<LinkedForce>) = forces.chain(joints).unzip();
         self.companions = found.0.into();
         Arc::make_mut(&mut self.forces).extend(found.1);
+        self.lift_limits();
     }
 
     /// The mechanism with additional drivers that hold coordinates at given laws. Assembly solves this model.

@@ -52,11 +52,12 @@ pub fn build(
     if !linked.is_empty() && problems.is_empty() {
         let mut rigid = Blueprint { allow_redundancy: true, ..blueprint.clone() };
         beams::weld(&mut rigid, &linked);
+        rigid.lift_limits();
         blueprint.rigid = Some(Arc::new(rigid));
     }
     beams::connect(&mut blueprint, linked);
     blueprint.add_further(further);
-    blueprint.add_companions(&quantities);
+    blueprint.add_companions(&quantities, &mut problems);
     for (k, unit) in scope.units.take() {
         let functions = blueprint.functions.iter_mut();
         functions.for_each(|functions| functions.laws[k].unit.clone_from(&unit));

@@ -113,8 +113,8 @@ pub struct ConstraintItem<S = f64> {
     pub driven: bool,
     /// Equations, in the order of the rows.
     pub equations: Vec<Equation>,
-    /// The index of the friction of a joint that may slip.
-    pub friction: Option<usize>,
+    /// The index of the force that belongs to it: the friction of a joint that may slip, or the limit of a driver.
+    pub companion: Option<usize>,
     /// The switch of its curve. The function of this switch is the first internal coordinate.
     pub curve_switch: Option<usize>,
 }

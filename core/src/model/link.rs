@@ -16,6 +16,9 @@ use crate::elements::{
 use crate::expression::{suggest, Tape};
 use crate::math::{Listed, ShortArray};
 
+/// The unit of a field with the effort of a driver.
+const EFFORT: &str = "N|N*m";
+
 /// A linked joint or driver.
 type Named = (String, Group, Constraint<Tape>);
 
@@ -271,9 +274,10 @@ impl<'a> Linker<'a> {
         }
     }
 
-    /// The symbols that a law may use.
-    pub(super) fn reach(&self) -> Reach {
+    /// The symbols that a law may use: an effort may depend on the whole state.
+    pub(super) fn reach(&self, field: &Field) -> Reach {
         match self.group {
+            Group::Drivers if field.unit == EFFORT => Reach::State,
             Group::Forces => Reach::State,
             Group::Joints | Group::Drivers => Reach::Positions,
         }

@@ -8,7 +8,7 @@ use super::layout::{StateLayout, Touched};
 use super::modes;
 use super::switch::{Switch, SwitchOwner};
 use super::variable::Dependence;
-use crate::elements::{BodyId, Constraint, Group, JointId, Mode};
+use crate::elements::{BodyId, Constraint, Group, Mode};
 use crate::expression::{Tape, Values};
 use crate::math::{Lift, Listed, Real, Vec2};
 use std::sync::Arc;
@@ -89,7 +89,7 @@ impl<S: Real> Model<S> {
                 measures_from_ground: !depends.bodies.is_empty(),
                 driven: *group == Group::Drivers || depends.time,
                 equations,
-                friction: None,
+                companion: None,
                 curve_switch: None,
             });
         }
@@ -201,8 +201,8 @@ fn forces<S: Real>(
     for (k, of) in blueprint.companions.iter().enumerate().map(|(k, of)| (first + k, *of)) {
         all[k].is_companion = true;
         let Some(of) = of else {
-            let joint = all[k].reaction.map(|JointId(joint)| &mut constraints[joint]);
-            joint.into_iter().for_each(|joint| joint.friction = Some(k));
+            let own = constraints.iter_mut().filter(|item| item.name == all[k].name);
+            own.for_each(|item| item.companion = Some(k));
             continue;
         };
         (all[of].partner, all[k].partner) = (Some(k), Some(of));

@@ -13,7 +13,8 @@ pub(super) fn set<S: Real>(
     modes: &[ForceMode],
 ) {
     let with_modes = |item: &&mut ForceItem<S>| {
-        item.element.behaviour().is_some_and(|behaviour| behaviour.has_modes())
+        let has_modes = item.element.behaviour().is_some_and(|behaviour| behaviour.has_modes());
+        has_modes || item.element.driver().is_some()
     };
     for (k, item) in forces.iter_mut().filter(with_modes).enumerate() {
         item.held_row = Some(layout.n_rows + k);

@@ -130,7 +130,7 @@ impl Source for Linker<'_> {
     }
 
     fn law(&mut self, field: &Field) -> Option<Tape> {
-        self.formula(field, self.reach())
+        self.formula(field, self.reach(field))
     }
 
     fn pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
@@ -161,7 +161,7 @@ impl Source for Linker<'_> {
     }
 
     fn law_pair(&mut self, field: &Field) -> Option<[Tape; 2]> {
-        self.two(field, self.reach())
+        self.two(field, self.reach(field))
     }
 
     fn laws(&mut self, field: &Field) -> Option<Vec<Tape>> {
@@ -173,7 +173,7 @@ impl Source for Linker<'_> {
             }
             None => return self.missing(field),
         };
-        let (path, reach) = (self.path(field), self.reach());
+        let (path, reach) = (self.path(field), self.reach(field));
         let read = |(k, item): (usize, &Value)| {
             let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).list();
             self.read(item, &path, &field.unit, reach)

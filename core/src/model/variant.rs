@@ -1,13 +1,14 @@
 //! The mechanism with other values of some parameters, without some of its drivers, or with forces in given modes.
 
 use super::blueprint::Blueprint;
-use super::items::ForceMode;
+use super::items::{ConstraintItem, ForceItem, ForceMode};
 use super::model::Model;
 use super::problem::Problem;
 use super::{checks, parameters};
 use crate::elements::{Group, Mode};
 use crate::expression::Expression;
 use crate::math::Listed;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 impl Model {
@@ -45,7 +46,33 @@ impl Model {
     pub fn without(&self, drivers: &[String]) -> Self {
         let mut blueprint = Blueprint::clone(&self.blueprint);
         Arc::make_mut(&mut blueprint.constraints).retain(|(name, ..)| !drivers.contains(name));
+        let is_limit = |item: &&ForceItem| item.element.driver().is_some();
+        if self.forces.iter().filter(is_limit).any(|item| drivers.contains(&item.name)) {
+            let own = Arc::make_mut(&mut blueprint.forces).iter_mut();
+            let own =
+                own.filter(|(name, _, force)| force.driver().is_some() && drivers.contains(name));
+            own.for_each(|(.., limit)| limit.take_over(false));
+        }
         Self::new(&Arc::new(blueprint), &self.parameters)
+    }
+
+    /// The model of runs of forward dynamics: the limits of drivers act in place of these drivers.
+    pub fn limited(&self) -> Cow<'_, Self> {
+        let is_limited = |item: &ConstraintItem| {
+            item.companion.is_some_and(|k| self.forces[k].element.driver().is_some())
+        };
+        if !self.constraints.iter().any(is_limited) {
+            return Cow::Borrowed(self);
+        }
+        let mut blueprint = Blueprint::clone(&self.blueprint);
+        let forces = Arc::make_mut(&mut blueprint.forces);
+        for item in self.constraints.iter().filter(|item| is_limited(item)) {
+            item.companion.into_iter().for_each(|k| forces[k].2.take_over(true));
+        }
+        let kept = self.constraints.iter().map(|item| !is_limited(item)).list();
+        let mut kept = kept.into_iter();
+        Arc::make_mut(&mut blueprint.constraints).retain(|_| kept.next() != Some(false));
+        Cow::Owned(Self::new(&Arc::new(blueprint), &self.parameters))
     }
 }
 
@@ -81,8 +108,11 @@ impl Model {
         Self::new(&Arc::new(blueprint), &self.parameters)
     }
 
-    /// The model with forces in these modes.
+    /// The model with forces in these modes. Limits of drivers act in place of the drivers.
     pub fn in_modes(&self, modes: &[ForceMode]) -> Self {
+        if let (false, Cow::Owned(limited)) = (modes.is_empty(), self.limited()) {
+            return limited.in_modes(modes);
+        }
         let mut blueprint = Blueprint { modes: modes.to_vec(), ..(*self.blueprint).clone() };
         for ForceMode { force, mode, value, .. } in modes {
             let (name, _, element) = &self.blueprint.forces[*force];

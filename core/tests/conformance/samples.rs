@@ -216,7 +216,7 @@ fn drivers() -> Vec<Constraint> {
         [(Coordinate::X, 0.4), (Coordinate::Y, -1.3), (Coordinate::Angle, 2.1)]
     {
         let coordinate = driven(coordinate).into();
-        let driver = CoordinateDriver { coordinate, value, release: None };
+        let driver = CoordinateDriver { coordinate, value, limit: None, release: None };
         all.push(Constraint::CoordinateDriver(driver));
     }
     all

@@ -50,7 +50,7 @@ fn stiffness_of_hanging_and_upright_windows() {
         for (angle, expected) in [(-PI / 2.0, weight), (PI / 2.0, -weight)] {
             let state = turned(&m, n, angle);
             let Linearization { coordinates, stiffness: found, .. } =
-                linearize(&m, &state, &[], &[]).expect("regular");
+                linearize(&m, &state, (&[], &[]), false).expect("regular");
             assert_eq!(coordinates, [2]);
             assert!((found[0] - expected).abs() < 1e-12 * weight, "{} {expected}", found[0]);
         }
@@ -68,7 +68,7 @@ fn stiffness_of_a_double_pendulum() {
     ));
     let state = start(&m, &[("one.angle", "-pi/2"), ("two.angle", "-pi/2")], &[]).0;
     let Linearization { coordinates, stiffness: found, .. } =
-        linearize(&m, &state, &[], &[]).expect("regular");
+        linearize(&m, &state, (&[], &[]), false).expect("regular");
     assert_eq!(coordinates, [2, 5]);
     let (weight, k) = (2.0 * G * 3.0, 7.0);
     let expected = [1.5 * weight + k, -k, -k, 0.5 * weight + k];
@@ -83,7 +83,7 @@ fn a_pendulum_with_inputs_and_outputs() {
     let state = start(&m, &[("rod.angle", "0.3"), ("rod.omega", "2")], &[]).0;
     let names = |all: &[&str]| all.iter().map(ToString::to_string).collect::<Vec<_>>();
     let outputs = names(&["rod.P.x", "rod.alpha", "pin.fy"]);
-    let found = linearize(&m, &state, &names(&["rod.angle"]), &outputs).expect("regular");
+    let found = linearize(&m, &state, (&names(&["rod.angle"]), &outputs), false).expect("regular");
     let (s, c, rate) = (0.3_f64.sin(), 0.3_f64.cos(), 2.0);
     let alpha = -1.5 * G * c;
     let slope = 1.5 * G * s;
@@ -110,13 +110,13 @@ fn a_pendulum_with_inputs_and_outputs() {
 fn unknown_names_and_flat_windows_are_refused() {
     let m = model(PENDULUM);
     let state = start(&m, &[], &[]).0;
-    let refused = linearize(&m, &state, &["rod.omega".to_string()], &[]);
+    let refused = linearize(&m, &state, (&["rod.omega".to_string()], &[]), false);
     assert!(matches!(refused, Err(Failure::Name(_))), "{refused:?}");
-    let refused = linearize(&m, &state, &[], &["rod.speed".to_string()]);
+    let refused = linearize(&m, &state, (&[], &["rod.speed".to_string()]), false);
     assert!(matches!(refused, Err(Failure::Name(_))), "{refused:?}");
     let m = windows(1);
     let state = turned(&m, 1, 0.0);
-    assert!(matches!(linearize(&m, &state, &[], &[]), Err(Failure::Singular { .. })));
+    assert!(matches!(linearize(&m, &state, (&[], &[]), false), Err(Failure::Singular { .. })));
 }
 
 /// A bar of a given mass that hangs from a pendulum, with or without a spring and a damper between them.
@@ -138,7 +138,7 @@ fn a_massless_body_without_a_determined_motion_is_refused() {
     for spring in [false, true] {
         let (m, state) = hung(0.0, spring);
         let failures = [
-            linearize(&m, &state, &[], &[]).expect_err("refused"),
+            linearize(&m, &state, (&[], &[]), false).expect_err("refused"),
             begins(&m, &state).expect_err("refused"),
         ];
         for failure in failures {
@@ -147,6 +147,9 @@ fn a_massless_body_without_a_determined_motion_is_refused() {
             assert!(name == "tail" && message.contains("nothing resists tail.angle"), "{message}");
         }
         let (m, state) = hung(1e-6, spring);
-        assert_eq!(linearize(&m, &state, &[], &[]).expect("with mass").coordinates, [2, 5]);
+        assert_eq!(
+            linearize(&m, &state, (&[], &[]), false).expect("with mass").coordinates,
+            [2, 5]
+        );
     }
 }

@@ -250,6 +250,7 @@ def modes(
     inputs: Sequence[str] = (),
     outputs: Sequence[str] = (),
     lock_friction: bool = False,
+    rotating: bool = False,
 ) -> ModesResult:
     """Frequencies, damping and shapes of small motions about a state, and its state space.
 
@@ -266,6 +267,9 @@ def modes(
 
         lock_friction: whether friction that sticks at the state locks its joint; otherwise small
             motions slide.
+        rotating: whether small motions are those in a frame that rotates with the mechanism, as for
+            a blade at speed. All bodies rotate about one point of ground with the same constant
+            rate, and there is no gravity.
 
     Raises:
         SingularityError: the position is singular, no mass moves with a coordinate, or the motion
@@ -273,7 +277,7 @@ def modes(
         AssemblyError: the state does not satisfy the constraints.
         ModelError: an unknown input or output, or a parameter that changes the geometry.
     """
-    entry = Modes(n, inputs, outputs, lock_friction).tree()
+    entry = Modes(n, inputs, outputs, lock_friction, rotating).tree()
     compiled = compiled_model(model)
     check(compiled, state, "state")
     return ModesResult(run_analysis(compiled, state, entry))

@@ -540,6 +540,9 @@ class Modes(Analysis):
         outputs: Quantities.
         lock_friction: Whether friction that sticks at the state locks its joint. Otherwise
             small motions slide.
+        rotating: Whether small motions are those in a frame that rotates with the mechanism, as
+            for a blade at speed: all bodies rotate about one point of ground with the same
+            constant rate, and there is no gravity.
         after: State about which the motions are small: "start", or the name of an earlier
             analysis to use its final state. If absent, the final state of the previous
             analysis.
@@ -550,6 +553,7 @@ class Modes(Analysis):
     inputs: Words | None = None
     outputs: Words | None = None
     lock_friction: bool = False
+    rotating: bool = False
     after: str | None = None
     name: str = "modes"
     kind: ClassVar[str] = "modes"
@@ -558,6 +562,7 @@ class Modes(Analysis):
         "inputs": "quantities",
         "outputs": "quantities",
         "lock_friction": "flag",
+        "rotating": "flag",
         "after": "name",
     }
 

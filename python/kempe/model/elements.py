@@ -552,25 +552,32 @@ class CoordinateDriver(Element):
 
     Coordinate driver: a position quantity is a given function of time, Φ = coordinate - value
     (Haug 3.5.1, 3.5.2). The driving force or torque is -λ on body j of the quantity and +λ on
-    body i. The coordinates of a body are measured from ground.
+    body i. The coordinates of a body are measured from ground. With `limit`, the effort in a
+    run of `dynamics` has at most this magnitude: where more is needed, the drive gives the
+    limit and falls behind or is pushed ahead, and it follows its law again, with the lag that
+    it has then, as soon as the rates are equal and the limit suffices.
 
     Attributes:
         coordinate: Driven quantity: `body.x`, `body.y`, `body.angle`, `body.point.x`,
             `joint.angle`, `joint.displacement`, the place `joint.u` on a curve, and so on.
         value: Value of the quantity, m or rad; may use `t` and the positions of other bodies [m
             or rad].
+        limit: Largest effort, N or N·m; may use `t` and the state. Without it, the effort has
+            no limit. Negative values count as 0 [N or N*m].
         release: Condition on any quantities. Once it has become true, the driver no longer
             acts.
     """
 
     coordinate: str
     value: Number
+    limit: Number | None = None
     release: str | None = None
     section: ClassVar[str] = "drivers"
     kind: ClassVar[str] = "coordinate_driver"
     value_kinds: ClassVar[Mapping[str, str]] = {
         "coordinate": "coordinate",
         "value": "law",
+        "limit": "law",
         "release": "condition",
     }
 
@@ -1520,13 +1527,17 @@ class ElementMethods:
         coordinate: str,
         *,
         value: Number,
+        limit: Number | None = None,
         release: str | None = None,
     ) -> CoordinateDriver:
         """Add an element of type ``coordinate_driver`` and return it.
 
         Coordinate driver: a position quantity is a given function of time, Φ = coordinate - value
         (Haug 3.5.1, 3.5.2). The driving force or torque is -λ on body j of the quantity and +λ on
-        body i. The coordinates of a body are measured from ground.
+        body i. The coordinates of a body are measured from ground. With `limit`, the effort in a
+        run of `dynamics` has at most this magnitude: where more is needed, the drive gives the
+        limit and falls behind or is pushed ahead, and it follows its law again, with the lag that
+        it has then, as soon as the rates are equal and the limit suffices.
 
         Args:
             name: its name in the model.
@@ -1534,11 +1545,13 @@ class ElementMethods:
                 `joint.angle`, `joint.displacement`, the place `joint.u` on a curve, and so on.
             value: Value of the quantity, m or rad; may use `t` and the positions of other bodies [m
                 or rad].
+            limit: Largest effort, N or N·m; may use `t` and the state. Without it, the effort has
+                no limit. Negative values count as 0 [N or N*m].
             release: Condition on any quantities. Once it has become true, the driver no longer
                 acts.
         """
         return self._add(
-            CoordinateDriver(name, coordinate=coordinate, value=value, release=release)
+            CoordinateDriver(name, coordinate=coordinate, value=value, limit=limit, release=release)
         )
 
     def torsion_spring(

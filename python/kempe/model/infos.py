@@ -126,6 +126,7 @@ class ConstraintInfo:
         events: for each of these results the event that occurs when it becomes negative, or None.
         measured: its position quantities.
         is_shown: whether lists and figures show it; a lock is part of its beam.
+        is_limited: whether it is a driver whose effort has a limit.
     """
 
     name: str
@@ -146,6 +147,7 @@ class ConstraintInfo:
     events: tuple[str | None, ...]
     measured: tuple[Measured, ...]
     is_shown: bool
+    is_limited: bool
 
     def __repr__(self) -> str:
         return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
@@ -264,6 +266,7 @@ def constraint(entry: dict[str, Any]) -> ConstraintInfo:
         events=tuple(result["negative"] for result in entry["results"]),
         measured=_measured(entry["measured"]),
         is_shown=entry["is_shown"],
+        is_limited=entry["is_limited"],
     )
 
 

@@ -230,8 +230,12 @@ class Motion:
         return self._answer(lambda states: states.force_place(name, on))
 
     def force_results(self, name: str) -> Floats:
-        """Results of a force element beside its wrenches, (…, n); see ``ForceInfo.results``."""
-        reads = self.compiled.forces[name].reads_multipliers
+        """Results of a force element beside its wrenches, (…, n); see ``ForceInfo.results``.
+
+        Of a driver with a limit: its effort and power while the limit acts, and zero elsewhere.
+        """
+        known = self.compiled.forces.get(name)
+        reads = known is None or known.reads_multipliers
         lam = (
             self.lam
             if reads

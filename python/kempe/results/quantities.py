@@ -286,7 +286,8 @@ def _driving(motion: Motion, info: ConstraintInfo) -> dict[str, Quantity]:
     view = motion.constraint(info.name)
 
     def effort() -> Any:
-        return scalar(-view.lam[..., 0])
+        limited = motion.force_results(info.name)[..., 0] if info.is_limited else 0.0
+        return scalar(limited - view.lam[..., 0])
 
     def power() -> Any:
         return scalar(effort() * named(motion, f"{owner}.{_rate_name(motion, owner, name)}").read())

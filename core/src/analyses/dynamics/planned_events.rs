@@ -40,6 +40,9 @@ pub(in crate::analyses) struct Planned {
 /// Largest error of a step at which a gap counts as open, relative to the size of the mechanism.
 const LOOSEST: f64 = 1e-10;
 
+/// The names of the events of a limited driver, in place of those of friction that begins to stick and to slip.
+const OF_LIMIT: &[&str] = &["follows", "saturated"];
+
 /// The name of the event at which a driver is released.
 fn release_of(driver: &str) -> String {
     format!("{driver}.release")
@@ -47,6 +50,7 @@ fn release_of(driver: &str) -> String {
 
 /// The events of a run, in the order in which they take effect.
 pub(in crate::analyses) fn planned(model: &Model, options: &Options) -> Vec<Planned> {
+    let model = &*model.limited();
     let listed = options.events.iter().map(|event| Planned {
         name: event.name.clone(),
         condition: event.condition.clone(),
@@ -63,16 +67,19 @@ pub(in crate::analyses) fn planned(model: &Model, options: &Options) -> Vec<Plan
         direction: Direction::Any,
         effect: Effect::Stop(1),
     });
-    let releases = model.constraints.iter().filter_map(|driver| {
+    let whole = model.constraints.iter().map(|item| (&item.name, Some(&item.element)));
+    let limited = model.forces.iter().map(|item| (&item.name, item.element.driver()));
+    let releases = whole.chain(limited).filter_map(|(name, driver)| {
         Some(Planned {
-            name: release_of(&driver.name),
-            condition: driver.element.release()?.to_string(),
+            name: release_of(name),
+            condition: driver?.release()?.to_string(),
             direction: Direction::Any,
-            effect: Effect::Release(driver.name.clone()),
+            effect: Effect::Release(name.clone()),
         })
     });
     let modes = model.forces.iter().enumerate().flat_map(|(force, item)| {
         let names = item.element.behaviour().map_or(&[][..], |behaviour| behaviour.events());
+        let names = item.element.driver().map_or(names, |_| OF_LIMIT);
         let named = names.iter().enumerate();
         named.map(move |(place, name)| Planned {
             name: format!("{}.{name}", item.name),

@@ -17,6 +17,7 @@ use crate::integrate::Flow;
 use crate::math::{Lanes, Listed};
 use crate::model::Model;
 use crate::stabilize::Projection;
+use std::borrow::Cow;
 use std::ops::Deref;
 
 /// Regularity of a position below which equations may hold only to second order.
@@ -108,6 +109,11 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         let own = second_order::acting(&self.model, start.t, &start.q);
         let own = own.map(|model| (model, ModelCache::default()));
         let base = own.as_ref().map_or((&*self.model, &self.cache), |(model, own)| (model, own));
+        let limited = match base.0.limited() {
+            Cow::Borrowed(_) => None,
+            Cow::Owned(model) => Some((model, ModelCache::default())),
+        };
+        let base = limited.as_ref().map_or(base, |(model, own)| (model, own));
         course::run(base, start, options, self.clock, watch, act)
     }
 

@@ -16,6 +16,7 @@ use crate::analyses::{second_order, State};
 use crate::integrate::Flow;
 use crate::model::Model;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -100,6 +101,11 @@ impl<M: Deref<Target = Model>> SteppedRun<M> {
             Options { t_end: t, output_step: None, dense_output: false, ..options.clone() };
         options.method.control_mut().first_step = None;
         let own = second_order::acting(prepared.model(), start.t, &start.q);
+        let limited = own.as_ref().unwrap_or(prepared.model()).limited();
+        let own = match limited {
+            Cow::Owned(model) => Some(model),
+            Cow::Borrowed(_) => own,
+        };
         let own = own.map(|model| Box::new((model, ModelCache::default())));
         let base = own.as_ref().map_or_else(|| &**prepared.model(), |own| &own.0);
         let mut last = Run::default();

@@ -53,7 +53,7 @@ fn look(
     let largest = |x: &[f64]| x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let (fastest, strongest) = (STILL * largest(v), STILL * largest(a));
     for k in touched.forces() {
-        let Jet { value, rate, second } = forces::threshold(&lifted, *k, &motions, acting);
+        let Jet { value, rate, second } = forces::threshold_of_state(&lifted, *k, &motions, acting);
         let name = model.forces[*k].name.clone();
         let into = rate < -fastest || rate <= fastest && second < -strongest;
         let message = match value < -TOUCHING * unit(model, size(model), *k) {

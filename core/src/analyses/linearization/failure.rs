@@ -48,6 +48,13 @@ pub enum Failure {
     },
     /// The index of an output that has no derivative at the state.
     NoDerivative(usize),
+    /// The mechanism does not rotate uniformly.
+    Rotation {
+        /// The time, s.
+        t: f64,
+        /// Why not.
+        message: String,
+    },
 }
 
 impl Failure {
@@ -130,6 +137,9 @@ impl fmt::Display for Failure {
                 "'{parameter}' changes the geometry of a joint or the law of a driver; an input is a parameter of forces \
                  or masses alone"
             ),
+            Self::Rotation { t, message } => {
+                write!(f, "no frame rotates with the mechanism at t = {t:.6} s: {message}")
+            }
             Self::NoDerivative(k) => write!(f, "output {} has no derivative at the state", k + 1),
         }
     }

@@ -14,6 +14,7 @@ use super::freedoms::Freedoms;
 use super::names::{output, Input};
 use super::parameters::slopes_by_parameter;
 use super::response::Linear;
+use super::rotation::RotatingFrame;
 use super::variation::{Slopes, StatePoint, Variation, D};
 use crate::analyses::dynamics::{Accelerations, Prepared, States};
 use crate::analyses::signals::{Seen, Signal};
@@ -50,6 +51,8 @@ pub struct Linearization {
     pub c: Vec<f64>,
     /// D, shape (outputs, inputs).
     pub d: Vec<f64>,
+    /// Velocities of all coordinates at the state, shape (n_q); zero in a frame that rotates with the mechanism.
+    pub velocity: Vec<f64>,
     /// Accelerations of all coordinates at the state, shape (n_q); zero at an equilibrium.
     pub acceleration: Vec<f64>,
     /// Values of the outputs at the state.
@@ -80,16 +83,17 @@ struct Column {
 /// Linearizes the equations of motion at a state that satisfies the constraints, with inputs and outputs by name.
 ///
 /// An input is a parameter or, given by its position quantity, a generalized force. An output is any quantity of the
-/// state. Drivers hold their coordinates, and the time is constant.
+/// state. Drivers hold their coordinates, and the time is constant. The motions are those in the frame of ground or, if
+/// requested, in one that rotates with the mechanism.
 ///
 /// # Errors
 /// [`Failure`]: a singular position, an open joint, a degree of freedom without inertia, a massless body whose motion is
-/// not determined, or an invalid name.
+/// not determined, an invalid name, or no uniform rotation.
 pub fn linearize(
     model: &Model,
     state: &State,
-    inputs: &[String],
-    outputs: &[String],
+    (inputs, outputs): (&[String], &[String]),
+    rotating: bool,
 ) -> Result<Linearization, Failure> {
     let own = second_order::acting(model, state.t, &state.q);
     let model = own.as_ref().unwrap_or(model);
@@ -102,11 +106,12 @@ pub fn linearize(
     check_closed(model, state)?;
     let freedom = Freedoms::with_factors(model, *t, q)?;
     let solved = solved(model, state)?;
+    let rotation = rotating.then(|| RotatingFrame::of(model, state, &solved.a)).transpose()?;
     let at = StatePoint { q, v, z, a: &solved.a, lam: &solved.lam };
     let variation = Variation::new(model, *t, at, true);
     let linear = Linear::new(model, [q, v], freedom, (&variation, &reactive::rows(model)));
     let linear = linear.map_err(|column| Failure::no_inertia(model, *t, column))?;
-    LinearEquations { model, t: *t, at, variation, linear, outputs }.all(&inputs)
+    LinearEquations { model, t: *t, at, variation, linear, outputs, rotation }.all(&inputs)
 }
 
 /// Checks, without computing derivatives, whether a state can be linearized: the joints must be closed, the position
@@ -137,6 +142,8 @@ struct LinearEquations<'a> {
     variation: Variation<'a>,
     linear: Linear<'a>,
     outputs: Vec<Signal>,
+    /// The frame in which the motions are small; None for that of ground.
+    rotation: Option<RotatingFrame>,
 }
 
 impl LinearEquations<'_> {
@@ -148,10 +155,10 @@ impl LinearEquations<'_> {
         let f = basis.len();
         let mut of_state: Vec<Column> = Vec::with_capacity(2 * f + states.len());
         for motion in basis {
-            let moved = StatePoint { q: motion, ..StatePoint::default() };
-            let mut rates = self.variation.along(moved).rates;
-            rates.iter_mut().for_each(|rate| *rate = -*rate);
-            let v = linear.velocities(&rates);
+            let v = match self.rotation {
+                Some(rotation) => rotation.turned(model, motion),
+                None => self.velocities(motion),
+            };
             of_state.push(self.column(&StateChange {
                 q: motion.clone(),
                 v,
@@ -183,12 +190,26 @@ impl LinearEquations<'_> {
             b,
             c,
             d,
-            acceleration: at.a.to_vec(),
+            velocity: self.in_frame(at.v),
+            acceleration: self.in_frame(at.a),
             values: self.observe(&self.variation, StatePoint::default()).map(|y| y.value).list(),
             coordinates: linear.freedoms.coordinates.clone(),
             basis: basis.clone(),
             states,
         })
+    }
+
+    /// The change of the velocities with the positions.
+    fn velocities(&self, motion: &[f64]) -> Vec<f64> {
+        let moved = StatePoint { q: motion, ..StatePoint::default() };
+        let mut rates = self.variation.along(moved).rates;
+        rates.iter_mut().for_each(|rate| *rate = -*rate);
+        self.linear.velocities(&rates)
+    }
+
+    /// Rates as they are in the frame: a mechanism is at rest in a frame that rotates with it.
+    fn in_frame(&self, rates: &[f64]) -> Vec<f64> {
+        rates.iter().map(|x| if self.rotation.is_some() { 0.0 } else { *x }).list()
     }
 
     /// The matrices of the rates and of the outputs, assembled from the columns of the state or of the inputs.
@@ -232,8 +253,23 @@ impl LinearEquations<'_> {
         if let Some(k) = outputs.iter().position(|y| !y.is_finite()) {
             return Err(Failure::no_derivative(k));
         }
-        let own = self.linear.freedoms.coordinates.iter().map(|column| response.a[*column]);
-        Ok(Column { rates: own.chain(states).list(), outputs, force: response.force })
+        let own = |of: &[f64]| -> Vec<f64> {
+            self.linear.freedoms.coordinates.iter().map(|column| of[*column]).list()
+        };
+        let (mut rates, mut force) = (own(&response.a), response.force);
+        if let (Some(rotation), false) = (self.rotation, q.is_empty() && v.is_empty()) {
+            // the velocities that belong to a change of the position are those of the frame
+            let still = vec![0.0; self.model.layout.n_q];
+            let [position, velocity] = if q.is_empty() { [&still, v] } else { [q, &still] };
+            let of_frame = own(&rotation.of_frame(self.model, position, velocity));
+            let n = of_frame.len();
+            for (row, force) in force.iter_mut().enumerate() {
+                let mass = &self.linear.mass[row * n..][..n];
+                *force += mass.iter().zip(&of_frame).map(|(m, x)| m * x).sum::<f64>();
+            }
+            rates.iter_mut().zip(of_frame).for_each(|(rate, x)| *rate += x);
+        }
+        Ok(Column { rates: rates.into_iter().chain(states).list(), outputs, force })
     }
 
     /// The direction of an input.

@@ -7,6 +7,7 @@
 //! | `variation` | derivatives of the equations of motion along a direction |
 //! | `parameters` | derivatives of parameters that are formulas of other parameters |
 //! | `response` | changes of accelerations and multipliers due to forces |
+//! | `rotation` | a frame that rotates with the mechanism |
 //! | `names` | inputs and outputs by name |
 //! | `linearize` | reduced mass, damping and stiffness, and the state-space matrices |
 //! | `eigenvalues` | eigenvalues of the equations |
@@ -24,6 +25,7 @@ mod options;
 mod parameters;
 mod record;
 mod response;
+mod rotation;
 mod variation;
 
 pub use failure::{coordinate, Failure};

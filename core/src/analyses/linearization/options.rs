@@ -31,6 +31,10 @@ options! {
         outputs: outputs = Vec::new(),
         /// Whether friction that sticks at the state locks its joint. Otherwise small motions slide.
         lock_friction: flag = false,
+        /// Whether small motions are those in a frame that rotates with the mechanism, as for a blade
+        /// at speed: all bodies rotate about one point of ground with the same constant rate, and
+        /// there is no gravity.
+        rotating: flag = false,
         /// State about which the motions are small: "start", or the name of an earlier analysis to
         /// use its final state. If absent, the final state of the previous analysis.
         from: Option<name> = None,

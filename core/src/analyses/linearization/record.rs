@@ -43,7 +43,7 @@ impl Analysis for Options {
 
     fn run(&self, subject: &Subject<'_>, start: &StartState, _: Observer<'_>) -> RunResult {
         let (model, locked) = self.model(subject, start)?;
-        let found = linearize(&model, &start.state, &self.inputs, &self.outputs);
+        let found = linearize(&model, &start.state, (&self.inputs, &self.outputs), self.rotating);
         let found = found.map_err(|failure| self.outcome(failure))?;
         let (f, n_q) = (found.coordinates.len(), model.layout.n_q);
         let n = 2 * f + found.states.len();
@@ -59,7 +59,7 @@ impl Analysis for Options {
         let facts: Vec<Fact> = held.into_iter().chain(named).list();
         modes.truncate(self.n.unwrap_or(modes.len()));
         let own = |of: &[f64]| -> Vec<f64> { found.coordinates.iter().map(|k| of[*k]).list() };
-        let motion = [own(&start.state.v), own(&found.acceleration)];
+        let motion = [own(&found.velocity), own(&found.acceleration)];
         let fastest = modes.iter().map(|s| size(*s)).fold(0.0, f64::max);
         let [moves, accelerates] = each([0, 1], |order| {
             let largest = motion[order].iter().map(|x| x.abs()).fold(0.0, f64::max);
@@ -189,6 +189,10 @@ impl From<Failure> for Outcome {
                 outcome(ErrorClass::Model).hint(problem.hint.clone().unwrap_or_default())
             }
             Failure::Geometry { .. } | Failure::NoDerivative(_) => outcome(ErrorClass::Model),
+            Failure::Rotation { t, .. } => outcome(ErrorClass::Assembly).at(*t).hint(
+                "with rotating = true, all bodies rotate about one point of ground with the same constant rate, and the \
+                 model has no gravity; leave it out for motions in the frame of ground",
+            ),
         }
     }
 }

@@ -301,7 +301,7 @@ impl<'a> MotionSlopes<'a> {
             for struck in &passage.impacts {
                 let setting = Setting { modes: Vec::new(), ..setting.clone() };
                 let open = setting.model(asked.model).map_err(|_| impossible(self.phase))?;
-                let closed = impacts::closed(&open, struck);
+                let closed = impacts::closed(&open.limited(), struck);
                 let mut blocks = (asked.equations)(&closed, &setting)?;
                 let at = (t, late);
                 impacts::strike(&self.ode, (&closed, &mut blocks), struck, at, &mut self.y)

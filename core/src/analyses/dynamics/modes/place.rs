@@ -7,6 +7,7 @@ pub use crate::analyses::rigid::{is_rigid as is_contact, unit};
 use crate::elements::Mode;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
+use crate::equations::measured::lag;
 use crate::equations::{constraints, energy, leading};
 use crate::equations::{Gains, Workspace};
 use crate::math::Listed;
@@ -138,7 +139,14 @@ impl<'y> StateAt<'y> {
         if contacts.is_empty() {
             return Vec::new();
         }
-        self.jets(&model.lift(), contacts, a)
+        let mut jets = self.jets(&model.lift(), contacts, a);
+        let limits = contacts.iter().zip(&mut jets);
+        for (k, jet) in limits.filter(|(k, _)| model.forces[**k].element.driver().is_some()) {
+            let [q, v, _] = self.state(model);
+            let lag = lag(model, *k, &Motions::at(&model.layout, q, v), a, self.t);
+            *jet = Jet::new(lag.rate, lag.second, 0.0);
+        }
+        jets
     }
 
     fn jets(&self, lifted: &Model<Jet>, contacts: &[usize], a: &[f64]) -> Vec<Jet> {
@@ -150,7 +158,7 @@ impl<'y> StateAt<'y> {
         let motions = Motions::at(&lifted.layout, &q, &rates);
         let z = of(z);
         let acting = Acting { z: &z, lam: None, t: Jet::new(self.t, 1.0, 0.0) };
-        contacts.iter().map(|k| forces::threshold(lifted, *k, &motions, acting)).list()
+        contacts.iter().map(|k| forces::threshold_of_state(lifted, *k, &motions, acting)).list()
     }
 
     /// A force that is large compared with rounding errors of the forces of a phase: the largest of the kinetic energy
