@@ -120,7 +120,11 @@ impl Model {
             let equation = element.holding(*side, *value);
             let equation = equation.expect("a force that holds has an equation");
             let first = self.blueprint.forces.len() - self.blueprint.companions.len();
-            let how = if *force < first { "at rest" } else { "sticking" };
+            let how = match element.driver() {
+                Some(_) => "following",
+                None if *force < first => "at rest",
+                None => "sticking",
+            };
             let held = (format!("{name} ({how})"), Group::Forces, equation);
             Arc::make_mut(&mut blueprint.constraints).push(held);
         }
