@@ -226,12 +226,72 @@ def test_an_arm_with_two_limited_drives(swing: kp.Solution) -> None:
 
 def test_other_analyses_hold_the_law_with_any_effort(arm: kp.Case) -> None:
     start = kp.assemble(arm.model)
-    for run in (kp.kinematics, kp.inverse_dynamics):
-        sol = run(arm.model, start, t_end=4)
-        np.testing.assert_allclose(
-            sol["upper.angle"], 0.3 + 1.2 * np.sin(3 * sol.t), rtol=0, atol=1e-12
-        )
-    assert abs(sol["shoulder.effort"]).max() > 12
+    moved = kp.kinematics(arm.model, start, t_end=4)
+    with pytest.warns(kp.EventWarning) as told:
+        needed = kp.inverse_dynamics(arm.model, start, t_end=4)
+    for sol in (moved, needed):
+        law = 0.3 + 1.2 * np.sin(3 * sol.t)
+        np.testing.assert_allclose(sol["upper.angle"], law, rtol=0, atol=1e-12)
+    efforts = {name: abs(needed[f"{name}.effort"]) for name in ("shoulder", "elbow")}
+    k = efforts["shoulder"].argmax()
+    assert efforts["shoulder"][k] > 12
+    needs = f"shoulder needs {efforts['shoulder'][k]:.6g} N·m at {needed.t[k]:.6g}"
+    assert needs in str(told[0].message)
+    beyond = [name for name in efforts if (efforts[name] > needed[f"{name}.limit"]).any()]
+    assert len(told) == len(beyond)
+
+
+PARTS = ("fx", "fy", "force", "torque")
+
+
+def pushed(coordinate: str, law: str | None, sense: float = 1.0) -> kp.Model:
+    """An arm with a limited driver, or with the force that its limit is."""
+    m = kp.Model("arm", gravity=(0, -9.81), parameters={"L": 2.5})
+    m.ground.points(O=(0, 0), S=(0.1, 0.6))
+    m.bar("upper", mass=2, length=0.4, ends=("A", "B"))
+    m.bar("fore", mass=1, length=0.3, ends=("B", "C"))
+    m.revolute("A", "ground.O", "upper.A")
+    m.revolute("B", "upper.B", "fore.B")
+    m.spring_damper("gap", "upper.B", "ground.S", stiffness=20, free_length=0.3)
+    if law is None:
+        m.generalized_force("drive", coordinate, value=f"{sense}*L")
+    else:
+        m.coordinate_driver("drive", coordinate, value=law, limit="L")
+    return m
+
+
+@pytest.mark.parametrize(
+    "coordinate", ["fore.x", "fore.C.x", "fore.angle", "B.angle", "gap.length"]
+)
+def test_a_saturated_drive_is_a_generalized_force(coordinate: str) -> None:
+    begin = {"upper.angle": 0.4, "fore.angle": 0.9, "upper.omega": 1.0, "fore.omega": 1.5}
+    free = pushed(coordinate, None)
+    first = kp.assemble(free, set=begin)
+    owner, word = coordinate.rsplit(".", 1)
+    rate = {"x": "vx", "angle": "omega", "length": "rate"}[word]
+    at, speed = float(first[coordinate]), float(first[f"{owner}.{rate}"])
+    m = pushed(coordinate, f"{at!r} + {speed!r}*t + 200*t^2")
+    other = "fore" if coordinate == "gap.length" else "upper"
+    held = {name: x for name, x in begin.items() if other in name}
+    guess = {name: x for name, x in begin.items() if "angle" in name and other not in name}
+    start = kp.assemble(m, set=held, guess=guess)
+    np.testing.assert_allclose(start.v, first.v, atol=1e-9)
+    sol = kp.dynamics(m, start, t_end=0.05)
+    assert sol.events["drive.saturated"].t.size == 0
+    assert sol.events["drive.follows"].t.size == 0
+    expected = kp.dynamics(free, first, t_end=0.05)
+    np.testing.assert_allclose(sol.q[-1], expected.q[-1], atol=1e-10)
+    for name in PARTS[:2]:
+        there = expected[f"drive.{name}"][-1]
+        np.testing.assert_allclose(sol[f"drive.{name}"][-1], there, atol=1e-9)
+    # columns of sweeps are computed in the core
+    measures = [f"drive.{name}.final" for name in ("effort", "power", "limit", *PARTS)]
+    case = kp.Case(m, {"set": held, "guess": guess}, [kp.Dynamics(t_end=0.05)])
+    row = kp.sweep(case, {"L": [2.5]}, measures).table.iloc[0]
+    for measure in measures:
+        own = sol[measure.removesuffix(".final")][-1]
+        np.testing.assert_allclose(row[measure], own, rtol=1e-9, atol=1e-12)
+    assert row["drive.effort.final"] == pytest.approx(2.5)
 
 
 def test_slopes_through_saturation(arm: kp.Case, swing: kp.Solution) -> None:

@@ -6,6 +6,16 @@ use crate::equations::measured::{offered, ElementId};
 use crate::math::{Listed, ShortArray};
 use crate::model::{beam_of, is_inner, is_stretch_lock, Columns, Model, BEAM};
 
+/// The components of a force.
+const PARTS: [(&str, ForcePart); 4] = [
+    ("fx", ForcePart::X),
+    ("fy", ForcePart::Y),
+    ("force", ForcePart::Size),
+    ("torque", ForcePart::Torque),
+];
+/// The place of the largest effort among the results of the limit of a driver.
+const LIMIT: usize = 2;
+
 /// The quantities of one owner with their names.
 type Family = Vec<(String, Signal)>;
 
@@ -155,13 +165,10 @@ fn of_constraint(model: &Model, k: usize) -> Family {
             add("power", Signal::Power(k, Box::new(rate)));
         }
     }
-    let parts = [
-        ("fx", ForcePart::X),
-        ("fy", ForcePart::Y),
-        ("force", ForcePart::Size),
-        ("torque", ForcePart::Torque),
-    ];
-    parts.into_iter().for_each(|(name, part)| add(name, Signal::Reaction { k, part }));
+    if let Some(k) = item.companion.filter(|k| model.forces[*k].element.driver().is_some()) {
+        add("limit", Signal::ForceResult { k, place: LIMIT });
+    }
+    PARTS.into_iter().for_each(|(name, part)| add(name, Signal::Reaction { k, part }));
     let own = model.layout.constraints[k].own;
     for (column, name) in own.range().zip(own_names(own)) {
         add(&name, Signal::Column { order: 0, column });
@@ -206,8 +213,12 @@ fn of_force(model: &Model, k: usize) -> Family {
     for (place, result) in item.element.result_quantities().iter().enumerate() {
         add(result.name, Signal::ForceResult { k, place });
     }
-    for (name, part) in [("fx", ForcePart::X), ("fy", ForcePart::Y), ("torque", ForcePart::Torque)]
-    {
+    if item.element.driver().is_some() {
+        // in place of the driver, it has its quantities
+        PARTS.into_iter().for_each(|(name, part)| add(name, Signal::Force { k, part }));
+        return found;
+    }
+    for (name, part) in PARTS.into_iter().filter(|(name, _)| *name != "force") {
         add(name, Signal::Force { k, part });
     }
     if item.element.points().is_some() {

@@ -9,10 +9,12 @@ from kempe.analyses.dynamics import slopes_along
 from kempe.analyses.options import InverseDynamics, Kinematics
 from kempe.analyses.record import Progress, keep_solution, run_analysis, solution_of
 from kempe.base.arguments import explained
+from kempe.base.warn import warn
 from kempe.errors import SingularityError
 from kempe.model.compiled import CompiledModel
 from kempe.model.model import Model, compiled_model
 from kempe.model.values import Number
+from kempe.results.events import EventWarning, beyond_limits
 from kempe.results.solution import Solution
 from kempe.results.state import State
 
@@ -140,4 +142,8 @@ def follow(
         if isinstance(error, SingularityError):
             error.value = error.t
         raise
-    return solution_of(record, METHOD)
+    solution = solution_of(record, METHOD)
+    if entry["type"] == "inverse_dynamics":
+        for text in beyond_limits(solution):
+            warn(text, EventWarning)
+    return solution

@@ -121,6 +121,23 @@ def warnings_of(solution: Solution) -> list[str]:
     return found
 
 
+def beyond_limits(solution: Solution) -> list[str]:
+    """A warning for each driver whose effort is beyond its limit in a prescribed motion."""
+    found = []
+    drivers = [info for info in solution.compiled.constraints.values() if info.is_limited]
+    for name, info in ((info.name, info) for info in drivers):
+        effort, limit = solution[f"{name}.effort"], solution[f"{name}.limit"]
+        excess = np.abs(effort) - limit
+        k = int(excess.argmax())
+        if excess[k] > _NOISE * np.abs(effort).max():
+            unit = "N" if info.equations[0][1] == "m" else "N·m"
+            found.append(
+                f"{name} needs {abs(effort[k]):.6g} {unit} at {solution.t[k]:.6g}, and its limit is "
+                f"{limit[k]:.6g} {unit}; a run of dynamics shows the motion with the limit"
+            )
+    return found
+
+
 def true_at_start(solution: Solution, entry: Mapping[str, Any]) -> list[str]:
     """A warning for each stop and release that had no effect because it was true at the start.
 

@@ -232,7 +232,8 @@ class Motion:
     def force_results(self, name: str) -> Floats:
         """Results of a force element beside its wrenches, (…, n); see ``ForceInfo.results``.
 
-        Of a driver with a limit: its effort and power while the limit acts, and zero elsewhere.
+        Of a driver with a limit: its effort and power in a run of ``dynamics`` and zero elsewhere,
+        and the limit.
         """
         known = self.compiled.forces.get(name)
         reads = known is None or known.reads_multipliers

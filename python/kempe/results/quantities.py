@@ -278,7 +278,7 @@ def _along(motion: Motion, ends: tuple[tuple[str, Vector], ...], vectors: Floats
 
 
 def _driving(motion: Motion, info: ConstraintInfo) -> dict[str, Quantity]:
-    """Effort of a driver, which increases its coordinate if positive, and its power."""
+    """Effort of a driver, which increases its coordinate if positive, its power and its limit."""
     driver = motion.compiled.tree.get("drivers", {}).get(info.name, {})
     if info.group != "drivers" or "coordinate" not in driver:
         return {}
@@ -293,7 +293,10 @@ def _driving(motion: Motion, info: ConstraintInfo) -> dict[str, Quantity]:
         return scalar(effort() * named(motion, f"{owner}.{_rate_name(motion, owner, name)}").read())
 
     unit = "N" if info.equations[0][1] == "m" else "N*m"
-    return {"effort": Quantity(unit, effort), "power": Quantity("W", power)}
+    found = {"effort": Quantity(unit, effort), "power": Quantity("W", power)}
+    if info.is_limited:
+        found["limit"] = Quantity(unit, partial(_column, partial(motion.force_results, info.name), 2))
+    return found
 
 
 def _rate_name(motion: Motion, owner: str, position: str) -> str:

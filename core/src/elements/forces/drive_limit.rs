@@ -120,14 +120,19 @@ impl Force for DriveLimit {
         }
         const POWER: ResultQuantity = of("power", "W");
         match e.coordinate.of.kind() {
-            QuantityKind::Length => const { &[of("effort", "N"), POWER] },
-            _ => const { &[of("effort", "N*m"), POWER] },
+            QuantityKind::Length => const { &[of("effort", "N"), POWER, of("limit", "N")] },
+            _ => const { &[of("effort", "N*m"), POWER, of("limit", "N*m")] },
         }
     }
 
     fn results<S: Real>(e: &DriveLimit<S>, at: &Situation<'_, S>, out: &mut [S]) {
         let effort = e.effort(at);
-        out.copy_from_slice(&[effort, effort * e.rate(at)]);
+        out.copy_from_slice(&[effort, effort * e.rate(at), e.most()]);
+    }
+
+    fn arms<S: Real>(e: &DriveLimit<S>, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {
+        let arm = |body: usize| at.body(body).pose.global(e.coordinate.of.attachment(body).s);
+        Some([arm(0), arm(1)])
     }
 
     fn behaviour<S: Real>(e: &DriveLimit<S>) -> Option<Behaviour<S>> {
