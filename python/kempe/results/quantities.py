@@ -295,7 +295,9 @@ def _driving(motion: Motion, info: ConstraintInfo) -> dict[str, Quantity]:
     unit = "N" if info.equations[0][1] == "m" else "N*m"
     found = {"effort": Quantity(unit, effort), "power": Quantity("W", power)}
     if info.is_limited:
-        found["limit"] = Quantity(unit, partial(_column, partial(motion.force_results, info.name), 2))
+        found["limit"] = Quantity(
+            unit, partial(_column, partial(motion.force_results, info.name), 2)
+        )
     return found
 
 
