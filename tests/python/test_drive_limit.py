@@ -235,7 +235,7 @@ def test_other_analyses_hold_the_law_with_any_effort(arm: kp.Case) -> None:
     efforts = {name: abs(needed[f"{name}.effort"]) for name in ("shoulder", "elbow")}
     k = efforts["shoulder"].argmax()
     assert efforts["shoulder"][k] > 12
-    needs = f"shoulder needs {efforts['shoulder'][k]:.6g} N·m at {needed.t[k]:.6g}"
+    needs = f"shoulder needs {efforts['shoulder'][k]:.6g} N·m at t = {needed.t[k]:.6g} s"
     assert needs in str(told[0].message)
     beyond = [name for name in efforts if (efforts[name] > needed[f"{name}.limit"]).any()]
     assert len(told) == len(beyond)

@@ -144,6 +144,6 @@ def follow(
         raise
     solution = solution_of(record, METHOD)
     if entry["type"] == "inverse_dynamics":
-        for text in beyond_limits(solution):
+        for text in beyond_limits(solution, entry):
             warn(text, EventWarning)
     return solution

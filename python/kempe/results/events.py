@@ -121,7 +121,7 @@ def warnings_of(solution: Solution) -> list[str]:
     return found
 
 
-def beyond_limits(solution: Solution) -> list[str]:
+def beyond_limits(solution: Solution, entry: Mapping[str, Any]) -> list[str]:
     """A warning for each driver whose effort is beyond its limit in a prescribed motion."""
     found = []
     drivers = [info for info in solution.compiled.constraints.values() if info.is_limited]
@@ -131,8 +131,10 @@ def beyond_limits(solution: Solution) -> list[str]:
         k = int(excess.argmax())
         if excess[k] > _NOISE * np.abs(effort).max():
             unit = "N" if info.equations[0][1] == "m" else "N·m"
+            over, value = entry.get("over"), f"{solution.t[k]:.6g}"
+            place = f"t = {value} s" if over is None else f"{over} = {value}"
             found.append(
-                f"{name} needs {abs(effort[k]):.6g} {unit} at {solution.t[k]:.6g}, and its limit is "
+                f"{name} needs {abs(effort[k]):.6g} {unit} at {place}, and its limit is "
                 f"{limit[k]:.6g} {unit}; a run of dynamics shows the motion with the limit"
             )
     return found
