@@ -195,7 +195,7 @@ def test_pictures_are_on_white_paper(
         assert min(image.size) > 600
         assert (pixels[[0, -1]][:, [0, -1]] == 255).all()
         assert (pixels.reshape(-1, 3) == 255).all(axis=1).mean() > 0.5
-        colours = pixels.astype(int) @ (1 << 16, 1 << 8, 1)
+        colours = pixels[::5].astype(int) @ (1 << 16, 1 << 8, 1)
         assert len(np.unique(colours)) > 50
     panel = "getComputedStyle(document.documentElement).getPropertyValue('--panel').trim()"
     assert watched.page.evaluate(panel) == {"light": "#ffffff", "dark": "#181c22"}[scheme]

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from draw.mechanisms import moving, slider_crank, sprung
 from house.places import ROOT
+from sizes import FULL
 
 PREFIXES = {"G": 1e9, "M": 1e6, "k": 1e3, "": 1.0, "m": 1e-3, "µ": 1e-6}
 SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
@@ -112,7 +113,7 @@ def test_every_value_in_the_legends_is_that_of_the_solution(
     watched.page.uncheck("#degrees")
     end = float(solution.t[-1])
     checked = set()
-    for t in (0.0, 0.5 * end, end):
+    for t in (0.0, 0.5 * end, end) if FULL or name == "four_bar" else (0.5 * end,):
         told = expected(solution, t)
         watched.seek(t)
         for quantity in watched.page.locator(".quantity option").all_inner_texts():

@@ -39,7 +39,7 @@ def four_bar(
     m.revolute("D", "ground.D", "rocker.D")
     m.coordinate_driver("drive", "crank.angle", value=f"{rate}*t")
     m.measures(shake_x="A.fx + D.fx", shake_y="A.fy + D.fy")
-    analysis = kp.InverseDynamics(t_end=2 * np.pi / rate, output_step=2 * np.pi / rate / 180)
+    analysis = kp.InverseDynamics(t_end=2 * np.pi / rate, output_step=2 * np.pi / rate / 36)
     case = kp.Case(m, {"guess": {"coupler.angle": 0.6, "rocker.angle": 1.6}}, [analysis])
     best = {
         "front": -(masses[0] + masses[1]) * lengths[0] / 2 / weight,
@@ -80,11 +80,12 @@ def slider_crank(mass: float, size: float, rate: float) -> tuple[kp.Case, dict[s
     return case, {"k": k, "free": force / k}
 
 
-def lamp(mass: float, size: float, g: float) -> tuple[kp.Case, dict[str, float]]:
+def lamp(mass: float, size: float, g: float, n: int = 45) -> tuple[kp.Case, dict[str, float]]:
     """A lamp on an arm that a spring holds in every position, and the spring.
 
     A spring of free length zero from a point at height h above the hinge to a point of the arm at r
-    has the moment k h r cos φ about the hinge, the weight -m g a cos φ.
+    has the moment k h r cos φ about the hinge, the weight -m g a cos φ. So the number `n`
+    of positions does not matter.
     """
     arm, height, at = 0.8 * size, 0.3 * size, 0.25 * size
     exact = mass * g * arm / (height * at)
@@ -97,7 +98,7 @@ def lamp(mass: float, size: float, g: float) -> tuple[kp.Case, dict[str, float]]
     )  # fmt: skip
     m.revolute("hinge", "ground.O", "arm.O")
     m.spring_damper("spring", "ground.H", "arm.S", stiffness="k", free_length="free")
-    over = kp.InverseDynamics(over="arm.angle", range=(-1.0, 1.2), n=45, static=True)
+    over = kp.InverseDynamics(over="arm.angle", range=(-1.0, 1.2), n=n, static=True)
     return kp.Case(m, {"set": {"arm.angle": -1.0}}, [over]), {"k": exact, "free": 0.0}
 
 

@@ -86,10 +86,20 @@ def counted(path: Path) -> int:
             return 0
 
 
+#: A search that takes a second.
+WIDE = SECTION.replace("starts = 2", "starts = 8")
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> kp.Optimum:
+    """The same search without an interruption."""
+    return kp.optimize(kp.load(written(tmp_path_factory.mktemp("whole"), WIDE)))
+
+
 @pytest.mark.alone
 @pytest.mark.parametrize("sign", [signal.SIGINT, signal.SIGKILL])
-def test_a_stopped_search_continues(sign: int, folder: Path) -> None:
-    written(folder, SECTION.replace("starts = 2", "starts = 16"))
+def test_a_stopped_search_continues(sign: int, folder: Path, undisturbed: kp.Optimum) -> None:
+    written(folder, WIDE)
     words = [sys.executable, "-m", "kempe", "optimize", "lamp.toml"]
     with subprocess.Popen(words, stderr=subprocess.PIPE, text=True) as child:
         while child.poll() is None and counted(HERE / "optimize.db") < 15:
@@ -101,7 +111,7 @@ def test_a_stopped_search_continues(sign: int, folder: Path) -> None:
     if sign == signal.SIGINT:
         assert "the same command continues" in told
         assert kp.load(HERE / "optimized.toml").model.parameters["k"] != 300
-    whole = kp.optimize(kp.load("lamp.toml"))
+    whole = undisturbed
     assert kept < whole.runs, "the search was not stopped halfway"
     seen: list[int] = []
     found = kp.optimize(

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from design_problems.conftest import SECTION, written
 from design_problems.test_loads import SCALES, crane
+from sizes import some
 
 
 def hanging(size: float, mass: float) -> kp.Case:
@@ -15,7 +16,7 @@ def hanging(size: float, mass: float) -> kp.Case:
     return kp.Case(crane(size, mass).model, None, [kp.Equilibrium(name="rest")])
 
 
-@pytest.mark.parametrize(("size", "mass"), SCALES)
+@pytest.mark.parametrize(("size", "mass"), some(SCALES[::-1], 2))
 def test_a_front_in_closed_form(size: float, mass: float) -> None:
     """Stiffness k costs, and the block sinks by m g / k: their product is constant.
 
@@ -65,7 +66,8 @@ def test_a_front_of_a_file(folder: Path, capsys: pytest.CaptureFixture[str]) -> 
     from kempe.cli.app import run
 
     section = SECTION.replace('"over.effort.rms"', '["over.effort.rms", "k"]')
-    written(folder, section)
+    path = written(folder, section)  # few positions, because a front has thousands of runs
+    path.write_text(path.read_text("utf-8").replace("n = 41", "n = 5"), "utf-8")
     assert run(["check", "lamp.toml"]) == 0
     assert run(["optimize", "lamp.toml"]) == 0
     told = capsys.readouterr().out

@@ -17,8 +17,9 @@ LANGUAGES = {"python", "console", "text", "toml", "json", "sh", "math", ""}
 
 
 #: Pages whose runs take ten seconds and more. What they show is tested in tests/sweeps,
-#: tests/lab_report and tests/truth.
+#: tests/design_problems, tests/lab_report and tests/truth.
 LONG = {
+    "docs/optimization.md",
     "docs/report.md",
     "docs/sweeps.md",
     "docs/tutorials/geneva_drive.md",

@@ -12,19 +12,25 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 DRAG = (17, -23)
 #: All points of all examples take minutes.
 EACH = 1 if FULL else 8
+#: Points whose drag takes ten seconds.
+LONG = {"cam_roller": "follower.P", "geneva_drive": "wheel.N1"}
 
 
 def points(one: Studio) -> list[tuple[str, float, float]]:
     """A point for each place of the drawing, with its coordinates."""
-    found: dict[tuple[float, float], tuple[str, float, float]] = {}
+    names = []
     for name, body in one.tree()["bodies"].items():
         beam = body.get("type") == "beam"
         own = [*body.get("points", {}), *body.get("ends", ["A", "B"] if beam else [])]
         own += [] if beam else [*body.get("through", {})]  # the shape of a beam
-        for point in own or ["P"]:  # a point mass has one point
-            full = f"{name}.{point}"
-            x, y = one.quantity(f"{full}.x"), one.quantity(f"{full}.y")
-            found.setdefault((round(x, 9), round(y, 9)), (full, x, y))
+        names += [f"{name}.{point}" for point in own or ["P"]]  # a point mass has one point
+    values = one.call(
+        "names => Promise.all(names.map(name => kempe.quantity(name).then(x => x.value)))",
+        [f"{name}.{axis}" for name in names for axis in "xy"],
+    )
+    found: dict[tuple[float, float], tuple[str, float, float]] = {}
+    for name, x, y in zip(names, values[::2], values[1::2], strict=True):
+        found.setdefault((round(x, 9), round(y, 9)), (name, x, y))
     return list(found.values())
 
 
@@ -71,7 +77,7 @@ def test_nine_of_ten_points_follow_and_the_others_have_a_lock(studio: Opener) ->
         one.load(text)
         for point, x, y in points(one):
             count += 1
-            if count % EACH == 0:
+            if count % EACH == 0 and (FULL or LONG.get(path.stem) != point):
                 results.append((path.stem, point, followed(one, text, point, (x, y))))
     assert len(results) > (200 if FULL else 25)
     assert [one for one in results if one[2] is False] == []

@@ -64,10 +64,17 @@ def test_it_resumes_and_begins_anew(folder: Path, capsys: pytest.CaptureFixture[
     ],
 )
 def test_faulty_words_are_refused(
-    words: list[str], message: str, folder: Path, capsys: pytest.CaptureFixture[str]
+    words: list[str],
+    message: str,
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     import re
 
+    from kempe.sweeps import cluster
+
+    monkeypatch.setattr(cluster, "_LONGEST_WAIT", 1)
     written(folder)
     assert run(["sweep", "case.toml", *words]) == 2
     assert re.search(message, capsys.readouterr().err)

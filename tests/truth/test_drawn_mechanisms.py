@@ -9,7 +9,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from sizes import count
+from sizes import FULL, count
 from truth.drawn_mechanisms import Drawing, Drawn, Vector, scales
 
 #: Largest difference of accelerations, and of coordinates after a run.
@@ -18,6 +18,8 @@ EXACT = 1e-7
 REGULAR = 3e-3
 #: Mechanisms of one test.
 MANY = 25
+#: A stiff motion like that of 1015, of which the other integration takes ten thousand steps.
+LONG = frozenset() if FULL else frozenset({1017})
 
 
 def regular(made: Drawn, q: Vector) -> bool:
@@ -71,7 +73,7 @@ def test_motions(part: int) -> None:
     """A short motion by two methods, against an integration of the other equations."""
     compared = 0
     for seed in range(1000 + 6 * part, 1000 + 6 * (part + 1)):
-        if (found := drawn(seed)) is None:
+        if seed in LONG or (found := drawn(seed)) is None:
             continue
         made, v = found
         n, q = len(v), np.array(made.q)
