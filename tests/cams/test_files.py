@@ -11,7 +11,7 @@ import pytest
 from cams.machines import SIZES, lift_of, oscillating, programme, translating
 from command_line import kempe
 from kempe import plot
-from plot.overlaps import cut_off, overlaps
+from plot.overlaps import faults
 from sizes import FULL
 
 LIFT = "segment, angle [deg], lift [mm], law\nrise, 100, 10, cycloidal\ndwell, 40\n"
@@ -155,8 +155,7 @@ def test_no_text_of_the_figure_covers_another_or_leaves_the_paper() -> None:
     undercut = translating("flat", base_radius=0.004)
     for cam in (translating(closure="groove"), undercut, oscillating(closure="conjugate")):
         figure = plot.cam(cam)
-        assert overlaps(figure) == []
-        assert cut_off(figure) == []
+        assert faults(figure) == ([], [])
 
 
 def test_a_figure_of_something_else_is_refused() -> None:

@@ -86,7 +86,7 @@ def counted(path: Path) -> int:
             return 0
 
 
-#: A search that takes a second.
+#: A search that takes seconds.
 WIDE = SECTION.replace("starts = 2", "starts = 8")
 
 

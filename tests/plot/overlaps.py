@@ -1,4 +1,4 @@
-"""Which texts of a figure lie on each other."""
+"""Which texts of a figure lie on each other or leave the paper."""
 
 from itertools import combinations
 
@@ -36,19 +36,25 @@ def unseen(figure: Figure) -> set[Text]:
     return found
 
 
-def overlaps(figure: Figure) -> list[tuple[str, str]]:
+def faults(figure: Figure) -> tuple[list[tuple[str, str]], list[str]]:
+    """Texts that lie on each other, and texts that leave the paper, from one drawing."""
+    found = boxes(figure)
+    return overlaps(figure, found), cut_off(figure, found)
+
+
+def overlaps(figure: Figure, found: list[tuple[str, Bbox]] | None = None) -> list[tuple[str, str]]:
     return [
         (one, other)
-        for (one, a), (other, b) in combinations(boxes(figure), 2)
+        for (one, a), (other, b) in combinations(found or boxes(figure), 2)
         if min(a.x1, b.x1) - max(a.x0, b.x0) > SLACK and min(a.y1, b.y1) - max(a.y0, b.y0) > SLACK
     ]
 
 
-def cut_off(figure: Figure) -> list[str]:
+def cut_off(figure: Figure, found: list[tuple[str, Bbox]] | None = None) -> list[str]:
     """Texts that leave the paper."""
     width, height = figure.bbox.size
     return [
         text
-        for text, box in boxes(figure)
+        for text, box in found or boxes(figure)
         if box.x0 < -SLACK or box.y0 < -SLACK or box.x1 > width + SLACK or box.y1 > height + SLACK
     ]

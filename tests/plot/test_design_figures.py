@@ -6,7 +6,7 @@ import pytest
 from kempe import plot
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from plot.overlaps import cut_off, overlaps
+from plot.overlaps import faults
 from python.test_design_kinematics import four_bar
 from python.test_kinematics import slider_crank, started
 
@@ -54,8 +54,7 @@ def test_no_text_covers_another_or_leaves_the_paper(
 ) -> None:
     of, draw = FIGURES[name]
     figure = figure_of(draw(turn if of == "turn" else rocker))
-    assert overlaps(figure) == []
-    assert cut_off(figure) == []
+    assert faults(figure) == ([], [])
 
 
 def test_a_motion_over_time_with_one_driver_is_drawn_over_the_crank_angle(

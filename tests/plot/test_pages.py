@@ -13,7 +13,7 @@ from kempe.results.summary import summary
 from matplotlib.text import Text
 from plot.clipping import clipped_lengths
 from plot.conftest import NAMES, chain, driven, pendulum
-from plot.overlaps import boxes, cut_off, overlaps
+from plot.overlaps import boxes, faults, overlaps
 from plot.paintings import links
 from singular.equal_cranks import cranks, run
 
@@ -46,8 +46,7 @@ def test_the_flagship_has_all_figures(flagship_pages: list[plot.Page]) -> None:
 @pytest.mark.parametrize("stem", FLAGSHIP)
 def test_a_figure_of_the_flagship_can_be_read(flagship_pages: list[plot.Page], stem: str) -> None:
     figure = plot.select(flagship_pages, [stem])[0].figure()
-    assert overlaps(figure) == []
-    assert cut_off(figure) == []
+    assert faults(figure) == ([], [])
     assert figure.get_figwidth() == pytest.approx(160 / 25.4)
     assert min(text.get_fontsize() for text in figure.findobj(Text)) >= 8.0
     for axes in figure.axes:
@@ -85,8 +84,7 @@ def test_overlaps_are_seen() -> None:
     figure.text(0.5, 0.5, "one")
     figure.text(0.51, 0.5, "other")
     figure.text(0.99, 0.1, "leaves")
-    assert overlaps(figure) == [("one", "other")]
-    assert cut_off(figure) == ["leaves"]
+    assert faults(figure) == ([("one", "other")], ["leaves"])
 
 
 def test_the_page_of_motion_shows_every_coordinate_of_every_body(
@@ -107,8 +105,7 @@ def test_the_page_of_motion_limits_the_number_of_bodies() -> None:
     figure = plot.select(plot.pages(many), ["motion"])[0].figure()
     assert [len(axes.lines) for axes in figure.axes] == [24, 24, 24]
     assert figure.axes[0].get_title("left") == "Motion of the first 24 of 26 bodies"
-    assert overlaps(figure) == []
-    assert cut_off(figure) == []
+    assert faults(figure) == ([], [])
     looks = {(line.get_color(), str(line._dash_pattern)) for line in figure.axes[0].lines}
     assert len(looks) == 24
 
@@ -164,8 +161,7 @@ def test_a_motion_that_does_not_settle_keeps_a_plain_axis() -> None:
 def test_other_mechanisms_can_be_read_too(solution) -> None:  # type: ignore[no-untyped-def]
     for page in plot.pages(solution()):
         figure = page.figure()
-        assert overlaps(figure) == [], page.stem
-        assert cut_off(figure) == [], page.stem
+        assert faults(figure) == ([], []), page.stem
         for axes in figure.axes:
             assert all(math.isfinite(limit) for limit in (*axes.get_xlim(), *axes.get_ylim()))
 

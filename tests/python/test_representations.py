@@ -168,8 +168,8 @@ def test_equations_are_shown_in_latex(model: kp.Model) -> None:
 
 
 def test_a_long_table_is_cut() -> None:
-    rows = cells(parsed(chain(60)._repr_html_()))
-    assert ["… 30 more"] in rows
+    rows = cells(parsed(chain(35)._repr_html_()))
+    assert ["… 5 more"] in rows
 
 
 def test_the_help_is_for_users_and_its_example_runs(
