@@ -3,10 +3,10 @@
 import kempe as kp
 import numpy as np
 import pytest
-from house.places import ROOT
 from kempe.plot import style
 from kempe.plot.envelope import draw_envelope, logarithmic
 from matplotlib.collections import PolyCollection
+from motions import results
 
 
 @pytest.mark.parametrize("scale", [1e-12, 1.0, 1e3])
@@ -28,7 +28,7 @@ def test_a_band_has_no_false_wedges_beside_zeros(scale: float) -> None:
 
 
 def figure_of(example: str) -> tuple[kp.Solution, object]:
-    sol = kp.load(ROOT / "examples" / f"{example}.toml").run()[0]
+    sol = results(example)[0]
     assert isinstance(sol, kp.Solution)
     (page,) = [page for page in kp.plot.pages(sol) if page.name == "reactions"]
     return sol, page.figure()
@@ -69,7 +69,7 @@ def test_the_key_figure_is_compressed_after_the_action() -> None:
     ],
 )
 def test_runs_with_drivers_have_paths_and_efforts(example: str, design: list[str]) -> None:
-    sol = kp.load(ROOT / "examples" / f"{example}.toml").run()[0]
+    sol = results(example)[0]
     assert isinstance(sol, kp.Solution)
     key = [page.about for page in kp.plot.pages(sol) if page.key]
     assert [name for name in key if not name.startswith("measure_")] == [
