@@ -3,6 +3,7 @@
 Before its last line, pytest prints the times of the stages of `./test`.
 """
 
+import gc
 import os
 import sys
 import warnings
@@ -50,6 +51,12 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
     if config.option.markexpr != "alone" or not collection_path.name.startswith("test_"):
         return None
     return True if "mark.alone" not in collection_path.read_text("utf-8") else None
+
+
+def pytest_collection_finish() -> None:
+    """What the collection has made lasts, so that no search for garbage need look at it."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
