@@ -23,6 +23,8 @@ class Studio:
     page: "Page"
     messages: list[str] = field(default_factory=list)
     requests: list[str] = field(default_factory=list)
+    #: A test has left it as it was at its end, in any mode and with any case.
+    left: bool = False
 
     def call(self, expression: str, argument: Any = None) -> Any:
         return self.page.evaluate(expression, argument)
