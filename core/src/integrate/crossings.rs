@@ -101,7 +101,9 @@ pub fn crossings(
         }
     }
     changes.order_by_key(|change| change.index);
-    let around = search.earliest(changes.iter().filter(|change| ends(change.index)));
+    let sampled = changes.iter().map(|change| change.index).list();
+    let ending = changes.iter().filter(|change| ends(change.index));
+    let around = search.earliest(ending, &sampled);
     let mut all = match &around {
         None => changes.iter().map(|change| search.close(change)).list(),
         Some(around) => search.up_to(around, &changes),
@@ -278,13 +280,14 @@ impl WatchedStep<'_, '_, '_> {
         change.at(bracket.close(4.0 * spacing, |t| sign * self.some(t, &[index])[index]))
     }
 
-    /// Samples just before and just past the earliest change. A change is located only if it may come before the
-    /// changes located so far. Only few changes come earlier, unless they are simultaneous up to rounding errors.
+    /// Samples of the functions `all` just before and just past the earliest change. A change is located only if it may
+    /// come before the changes located so far. Only few changes come earlier, unless they are simultaneous up to
+    /// rounding errors.
     fn earliest<'c>(
         &mut self,
-        changes: impl Iterator<Item = &'c SignChange> + Clone,
+        changes: impl Iterator<Item = &'c SignChange>,
+        all: &[usize],
     ) -> Option<[Sample; 2]> {
-        let all = changes.clone().map(|change| change.index).list();
         let sign = (self.step.t - self.step.t_old).signum();
         let mut around: Option<[Sample; 2]> = None;
         for change in changes {
@@ -294,7 +297,7 @@ impl WatchedStep<'_, '_, '_> {
             let t = self.close(change).t;
             if around.as_ref().is_none_or(|[_, first]| sign * t < sign * first.0) {
                 let before = t - sign * NEAR * together(self.step);
-                around = Some([before, t].each(|t| self.sample(t, &all)));
+                around = Some([before, t].each(|t| self.sample(t, all)));
             }
         }
         around
@@ -314,7 +317,7 @@ impl WatchedStep<'_, '_, '_> {
             let sample = limit.insert(sample.unwrap_or_else(|| self.sample(t, &all)));
             self.has_changed(change, sample)
         });
-        let Some([_, first]) = self.earliest(changes.iter()) else { return Vec::new() };
+        let Some([_, first]) = self.earliest(changes.iter(), &all) else { return Vec::new() };
         let together = changes.iter().filter(|change| self.has_changed(change, &first));
         together.map(|change| change.at(first.0)).list()
     }
