@@ -89,8 +89,11 @@ def test_what_is_not_compared_is_named() -> None:
     [
         ({"t": T, "ball.x [s]": T}, "the quantity is in m"),
         ({"t": T, "a": T}, "no header is a quantity"),
-        ({"t": T + 9, "ball.x": T}, "no time lies within"),
+        ({"t": T + 9, "ball.x": T}, "nothing to compare; ball.x at 37 times outside"),
         ({"time": T, "ball.x": T}, "time"),
+        ({"t": T, "ball.vx [Hz]": T}, "it is in Hz as written"),
+        ({"t [Hz]": T, "ball.x": T}, "it is in Hz as written"),
+        ({"t": T, "ball.x [m]": T, "ball.x [mm]": T}, "both columns of ball.x"),
         ({"t": T, "ball.x": T[1:]}, "values for 37 times"),
         (3, "not a table"),
     ],
@@ -98,6 +101,29 @@ def test_what_is_not_compared_is_named() -> None:
 def test_an_impossible_reference_is_refused(table: object, told: str) -> None:
     with pytest.raises(kp.ModelError, match=told):
         kp.compare(thrown(), table)
+
+
+def test_values_that_are_missing_are_named() -> None:
+    masked = np.ma.masked_less(3 * T, 1e-3)  # the first one is missing
+    empty = np.full(37, np.nan)
+    found = kp.compare(thrown(), {"t": T, "ball.x": masked, "ball.y": empty})
+    assert found.largest == {"ball.x": pytest.approx(0.0, abs=1e-9)}
+    assert found.unread == (
+        "column 'ball.y', which has no values",
+        "ball.x in 1 rows without a value",
+    )
+    with pytest.raises(kp.ModelError, match=r"ball\.y.* has no values"):
+        kp.compare(thrown(), {"t": T, "ball.x": T, "ball.y": empty}, quantities=["ball.y"])
+
+
+def test_measures_of_other_units_are_refused() -> None:
+    runs = []
+    for formula in ("ball.x", "ball.vx"):
+        model = thrown().compiled.model
+        model.measures(same=formula)
+        runs.append(kp.dynamics(model, kp.assemble(model), t_end=1))
+    with pytest.raises(kp.ModelError, match=r"same: its units differ: m in .*, m/s in"):
+        kp.compare(*runs)
 
 
 def test_a_solution_without_interpolant_is_refused() -> None:

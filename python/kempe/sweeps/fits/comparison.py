@@ -24,7 +24,7 @@ from kempe.results.motion import Motion
 from kempe.results.quantities import values_of
 from kempe.results.solution import Solution
 from kempe.results.table import Extent, column_names
-from kempe.sweeps.fits.data import Data, headers
+from kempe.sweeps.fits.data import Data, headers, is_empty, read_table
 
 #: Times count as equal within this fraction of the largest time.
 _SAME = 1e-12
@@ -156,15 +156,22 @@ def compare(
     motions = _Motions(solution)
     for name, (times, values) in given.items():
         inside = _inside(solution, times)
-        if inside.any():
-            both = times[inside], values[inside]
-            of = _quantity(solution, name)
-            found[name] = Compared(both[0], _nearest(motions, of, *both), both[1], of.unit)
         if not inside.all():
             unread.append(f"{name} at {np.count_nonzero(~inside)} times outside of the motion")
+        if not inside.any():
+            continue
+        both = times[inside], values[inside]
+        of = _quantity(solution, name)
+        own = _nearest(motions, of, *both)
+        good = np.isfinite(own) & np.isfinite(both[1])
+        if good.any():
+            found[name] = Compared(both[0][good], own[good], both[1][good], of.unit)
+        if not good.all():
+            unread.append(f"{name} at {np.count_nonzero(~good)} times without a value")
     if not found:
         hint = "compute a motion that contains the times of the reference"
-        raise ModelError("reference: no time lies within the motion", hint=hint)
+        told = "; ".join(["reference: there is nothing to compare", *unread])
+        raise ModelError(told, hint=hint)
     return Comparison(solution, found, unread)
 
 
@@ -244,6 +251,11 @@ def _of_solution(
         asked = [name for name in column_names(reference, Extent()) if name in known]
     if not asked:
         raise ModelError("reference: the solutions have no quantity in common")
+    for name in asked:
+        own, other = _quantity(solution, name).unit, _quantity(reference, name).unit
+        if own != other:
+            pair = f"{own or 'no unit'} in the solution, {other or 'no unit'} in the reference"
+            raise ModelError(f"{name}: its units differ: {pair}", name=name)
     return {name: (reference.t, _quantity(reference, name).own()) for name in asked}
 
 
@@ -256,13 +268,15 @@ def _of_table(
 ) -> dict[str, tuple[Floats, Floats]]:
     """Times and values of the columns of a table."""
     columns, t = how
-    table = _with_units(table)
+    table = read_table(_with_units(table))
     chosen = dict(mapping(columns or {}, "columns", "{'rod.angle': 'phi [deg]'}"))
     if not chosen:
-        for name, header in headers(table).items():
-            if name == t or (asked is not None and name not in asked):
+        for name, header in headers(table, t).items():
+            if asked is not None and name not in asked:
                 continue
-            if _is_quantity(solution, name):
+            if asked is None and is_empty(table, header):
+                unread.append(f"column {header!r}, which has no values")
+            elif _is_quantity(solution, name):
                 chosen[name] = header
             else:
                 unread.append(f"column {header!r}, which is not a quantity of the mechanism")
@@ -271,7 +285,7 @@ def _of_table(
             raise ModelError(f"quantities: the table has no column of {name}", name=name)
     if not chosen:
         raise ModelError(
-            f"reference: no header is a quantity of the mechanism: {few(headers(table))}",
+            f"reference: no header is a quantity of the mechanism: {few(headers(table, t))}",
             hint='columns={"rod.angle": "phi [deg]"} gives the quantity of a header',
         )
     data = Data(table, t, chosen)

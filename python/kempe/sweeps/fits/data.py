@@ -59,7 +59,7 @@ class Data(metaclass=Explained):
         sigma: Mapping[str, float | str] | None = None,
         shift: str | None = None,
     ) -> None:
-        given = _table(table)
+        given = read_table(table)
         asked = mapping(columns or {}, "columns", "{'rod.angle': 'phi [deg]'}")
         if not asked:
             hint = f"the table has {few(given)}"
@@ -107,6 +107,9 @@ class Data(metaclass=Explained):
         pairs = [(f"columns.{name}", self._units[name], units[name]) for name in self.values]
         pairs += [(f"sigma.{name}", of, units[name]) for name, of in self._units_of_sigma.items()]
         for path, own, needed in [*pairs, ("t", self._unit_of_t, of_t)]:
+            if _HERTZ in (own, needed) and own not in ("", needed):
+                hint = f"; write {needed}" if own == _HERTZ else ""
+                refuse(path, f"it is in {own} as written, but the quantity is in {needed}{hint}")
             if own not in ("", needed):
                 _refuse_other(path, own, needed)
 
@@ -144,7 +147,7 @@ def _sigma(name: str, given: float | str) -> tuple[float, str]:
     return value, unit
 
 
-def _table(table: Any) -> dict[str, Any]:
+def read_table(table: Any) -> dict[str, Any]:
     """The columns of a table by their headers."""
     if isinstance(table, str | Path):
         return dict(_csv(Path(table)))
@@ -156,9 +159,38 @@ def _table(table: Any) -> dict[str, Any]:
     raise ModelError(f"table: {type(table).__name__} is not a table", hint=hint)
 
 
-def headers(table: Any) -> dict[str, str]:
-    """The headers of a table by their names without units."""
-    return {_split(header)[0]: header for header in _table(table)}
+def headers(table: Mapping[str, Any], t: str) -> dict[str, str]:
+    """The headers of a table by their names without units, without that of the times.
+
+    Raises:
+        ModelError: two headers differ in their units only.
+    """
+    found: dict[str, str] = {}
+    for header in table:
+        name = _split(header)[0]
+        if t in (name, header):
+            continue
+        if name in found:
+            hint = "columns={name: header} chooses one of them"
+            pair = f"{found[name]!r} and {header!r}"
+            raise ModelError(f"table: {pair} are both columns of {name}", name=name, hint=hint)
+        found[name] = header
+    return found
+
+
+def is_empty(table: Mapping[str, Any], header: str) -> bool:
+    """Whether a column of numbers has no values."""
+    try:
+        return not np.isfinite(_numbers(table[header])).any()
+    except (TypeError, ValueError):
+        return False
+
+
+def _numbers(column: Any) -> Floats:
+    """The numbers of a column; NaN where it is masked."""
+    if isinstance(column, np.ma.MaskedArray):
+        column = column.astype(np.float64).filled(np.nan)
+    return np.asarray(column, dtype=np.float64)
 
 
 def _column(given: Mapping[str, Any], header: str, what: str) -> tuple[Floats, str]:
@@ -170,7 +202,7 @@ def _column(given: Mapping[str, Any], header: str, what: str) -> tuple[Floats, s
     if not names:
         raise unknown(what, header, given)
     try:
-        values = np.asarray(given[names[0]], dtype=np.float64)
+        values = _numbers(given[names[0]])
     except (TypeError, ValueError):
         refuse(f"column {names[0]!r}", "its values are not numbers")
     unit = _split(names[0])[1]
