@@ -20,7 +20,7 @@ from kempe.base.names import one_of
 from kempe.base.warn import warn
 from kempe.case import Case
 from kempe.errors import AssemblyError, KempeError, ModelError
-from kempe.model.functions import FunctionWarning
+from kempe.model.functions import FunctionWarning, memory
 from kempe.model.measure_infos import MeasureInfo, measure_info
 from kempe.model.model import Model
 from kempe.model.values import refuse
@@ -46,6 +46,8 @@ class SavedStep:
     _run: _core.SavedRun
     #: The model and the options of its stepper.
     _of: tuple[_core.Model, str]
+    #: The memories of its controllers.
+    _memories: tuple[bytes, ...]
 
     def __repr__(self) -> str:
         return f"<SavedStep at t = {self.t:g} s>"
@@ -87,6 +89,8 @@ class Stepper:
         self._functions.close()
         for remark in self._functions.enter_context(self._model.run()):
             warn(remark, FunctionWarning)
+        self._controllers = [law for law in self._model.functions if law.sampling is not None]
+        self._runs = [law.runs for law in self._controllers]
         actions = self._actions
         acting = (list(actions), Acting(self._model, start, actions)) if actions else None
         at = float(start.t), start.q, start.v, start.z
@@ -192,6 +196,8 @@ class Stepper:
             SingularityError: the motion is not unique in a singular position.
             ModelError: ``dt`` is not positive, or an event has stopped the run.
         """
+        if self._controllers:
+            self._look_at_controllers()
         doubts = self._run.step(dt if type(dt) is float else _number(dt, "dt"))
         self._state = self._events = None
         if doubts and not self._doubted:
@@ -199,15 +205,29 @@ class Stepper:
             for doubt in doubts:
                 warn(doubt, AccuracyWarning)
 
+    def _look_at_controllers(self) -> None:
+        """Warn if another run has begun with the controllers of this one."""
+        for k, law in enumerate(self._controllers):
+            if law.runs != self._runs[k]:
+                self._runs[k] = law.runs
+                message = (
+                    f"{law.path}: another run has used the controller {law!r}, so that its memory "
+                    "is no longer that of this stepper; give each of them a model with its own one"
+                )
+                warn(message, FunctionWarning)
+
     def save(self) -> SavedStep:
         """The present state with all that the next steps need; ``restore`` continues from it.
 
         The memory of Python functions is not part of it.
         """
-        return SavedStep(self.t, self._run.save(), (self._model.core, self._text))
+        memories = tuple(memory(law.f) for law in self._controllers)
+        return SavedStep(self.t, self._run.save(), (self._model.core, self._text), memories)
 
     def restore(self, saved: SavedStep) -> None:
         """Continue from a saved state; the next steps are equal to the last bit.
+
+        A ``FunctionWarning`` names each controller whose memory has changed since then.
 
         Args:
             saved: a state from ``save``, of this stepper or of another one of the same model and
@@ -223,6 +243,13 @@ class Stepper:
             raise ModelError("saved: it is the state of another model or analysis", hint=hint)
         self._run.restore(saved._run)
         self._moved()
+        for law, before in zip(self._controllers, saved._memories, strict=True):
+            if memory(law.f) != before:
+                message = (
+                    f"{law.path}: the controller {law!r} keeps its present memory, which is not "
+                    f"that of t = {saved.t:g} s, so that the next steps may differ"
+                )
+                warn(message, FunctionWarning)
 
     def reset(self, start: State | None = None) -> None:
         """Begin again, with the inputs of the case.

@@ -3,7 +3,7 @@
 import kempe as kp
 
 
-def cart(mass: float = 1.0, force: float | str = "F") -> kp.Model:
+def cart(mass: float = 1.0, force: float | str | kp.Sampled = "F") -> kp.Model:
     """A cart on a rail, which a force pushes."""
     m = kp.Model("cart", gravity=(0, 0), parameters={"F": 0, "mass": mass})
     m.ground.points(O=(0, 0))

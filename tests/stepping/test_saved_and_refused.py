@@ -3,6 +3,7 @@
 import math
 import resource
 import signal
+import warnings
 
 import kempe as kp
 import numpy as np
@@ -239,3 +240,34 @@ def test_the_memory_of_many_steps_is_flat() -> None:
             _ = stepper["rod.angle"], stepper.events
     grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
     assert grown < 1024, f"{grown} KiB"
+
+
+class Integral:
+    """A controller with a memory."""
+
+    def __init__(self) -> None:
+        self.sum = 0.0
+
+    def reset(self) -> None:
+        self.sum = 0.0
+
+    def __call__(self, _: float, state: kp.State) -> float:
+        self.sum += 0.1 * (1.0 - float(state["cart.x"]))
+        return self.sum
+
+
+def test_a_controller_of_another_run_or_time_is_named() -> None:
+    case = kp.Case(cart(force=kp.Sampled(Integral(), 0.1)), {"set": {"cart.x": 0, "cart.vx": 0}})
+    stepper = kp.Stepper(case)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        saved = stepper.save()
+        stepper.restore(saved)
+        stepper.step(0.3)
+        stepper.reset()
+        stepper.step(0.3)
+    with pytest.warns(kp.FunctionWarning, match=r"not that of t = 0 s"):
+        stepper.restore(saved)
+    kp.dynamics(case.model, case.start(), t_end=0.2)
+    with pytest.warns(kp.FunctionWarning, match="another run has used the controller"):
+        stepper.step(0.1)

@@ -119,6 +119,7 @@ class FunctionLaw:
         self.f: PythonLaw = of.f if isinstance(of, Function) else of
         self.slopes: PythonSlopes | None = of.slopes if isinstance(of, Function) else None
         self._left: bytes | None = None  # the memory that the last run left, if it changed
+        self.runs = 0  # the runs that have begun
 
     @property
     def is_differentiable(self) -> bool:
@@ -148,6 +149,7 @@ class FunctionLaw:
 
         Returns its memory, and whether this is what an earlier run left.
         """
+        self.runs += 1
         owner = self.f.__self__ if isinstance(self.f, MethodType) else self.f
         if callable(reset := getattr(owner, "reset", None)):
             reset()

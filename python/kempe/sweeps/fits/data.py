@@ -189,7 +189,8 @@ def is_empty(table: Mapping[str, Any], header: str) -> bool:
 def _numbers(column: Any) -> Floats:
     """The numbers of a column; NaN where it is masked."""
     if isinstance(column, np.ma.MaskedArray):
-        column = column.astype(np.float64).filled(np.nan)
+        hidden = np.ma.getmaskarray(column)
+        return np.where(hidden, np.nan, np.asarray(column.data, dtype=np.float64))
     return np.asarray(column, dtype=np.float64)
 
 
