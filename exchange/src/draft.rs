@@ -21,6 +21,9 @@ pub(crate) struct Draft {
     pub(crate) guess: Table,
     pub(crate) analyses: Table,
     names: Names,
+    /// The names of points by body, wanted name and place, and the last number of equal names.
+    points: HashMap<(String, String), HashMap<[u64; 2], String>>,
+    next_point: HashMap<(String, String), usize>,
 }
 
 impl Draft {
@@ -45,14 +48,18 @@ impl Draft {
             .entry("points")
             .or_insert_with(|| json!({}));
         let points = points.as_object_mut().expect("points are a table");
-        let (base, mut name, mut k) = (allowed(wanted), allowed(wanted), 2);
-        let at = json!(at);
-        while points.get(&name).is_some_and(|other| *other != at) {
-            name = format!("{base}_{k}");
-            k += 1;
-        }
-        points.insert(name.clone(), at);
-        format!("{body}.{name}")
+        let of = (body.to_string(), allowed(wanted));
+        let same = self.points.entry(of.clone()).or_default();
+        let known = same.entry(at.map(f64::to_bits)).or_insert_with(|| {
+            let (mut name, next) = (of.1.clone(), self.next_point.entry(of).or_insert(1));
+            while points.contains_key(&name) {
+                *next += 1;
+                name = format!("{}_{next}", allowed(wanted));
+            }
+            points.insert(name.clone(), json!(at));
+            name
+        });
+        format!("{body}.{known}")
     }
 
     /// The case as JSON.

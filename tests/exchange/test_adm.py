@@ -76,3 +76,43 @@ def test_units_and_inertias_that_are_not_known_are_named(tmp_path: Path) -> None
     ]:
         with pytest.raises(kp.FileError, match=message):
             kp.load(changed(tmp_path, pair))
+
+
+@pytest.mark.parametrize(
+    ("pair", "message"),
+    [
+        (("JOINT/1, REVOLUTE", "JOINT/1, REVOLUTE, IC = 10D"), "JOINT/1: IC is not supported"),
+        ((", TRANSLATIONAL\n", ", TRANSLATIONAL, ACTIONONLY\n"), "SFORCE/1: ACTIONONLY"),
+        (("TIME = SECOND", "TIME = SECOND, SYSTEM = CGS"), "SYSTEM is not supported"),
+        (("PART/02, MASS = 2", "PART/02, MASS = 2, MASS = 3"), "MASS is given twice"),
+        (("IP = 1000, 6.0E5", "IP = 1000, abc"), "ABC is not supported"),
+        (("MARKER/0103", "MARKER/0201"), "MARKER/201: there is another statement"),
+        ((", CM = 0201, IP", ", IP"), "CM: there is no such marker"),
+        (("KGRAV = -9806.65\n", "KGRAV = -9806.65\nACCGRAV/\n, IGRAV = 1\n"), "another such"),
+        (("180D, 90D, 180D\nMARKER/0103", "180D, 90D, 180D, 4\nMARKER/0103"), "REULER: 4 values"),
+    ],
+)
+def test_words_that_are_not_read_are_named(
+    tmp_path: Path, pair: tuple[str, str], message: str
+) -> None:
+    with pytest.raises(kp.FileError, match=message):
+        kp.load(changed(tmp_path, pair))
+
+
+def test_markers_with_one_name_keep_their_places(tmp_path: Path) -> None:
+    view = "!    adams_view_name='{}'\nMARKER/"
+    path = changed(
+        tmp_path,
+        ("MARKER/0201", view.format("M/1") + "0201"),
+        ("MARKER/0202", view.format("M/1") + "0202"),
+        (
+            "END\n",
+            "JPRIM/1, INPLANE, I = 0101, J = 0103\nMOTION/1, ROTATION, JOINT = 1\n"
+            ", FUNCTION = 30D*time\nEND\n",
+        ),
+    )
+    case = kp.load(path, partial=True)
+    # the pin is at the origin of the rod, and the motion is that of JOINT/1, not of JPRIM/1
+    assert case.start()["rod.x"] == pytest.approx(0, abs=1e-12)
+    assert case.model.tree()["drivers"]["MOTION_1"]["coordinate"] == "pin.angle"
+    assert case.model.tree()["bodies"]["rod"]["center"] == pytest.approx([1, 0])

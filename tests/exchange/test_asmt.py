@@ -223,3 +223,16 @@ def test_shapes_and_notes_are_listed_but_no_error(tmp_path: Path) -> None:
     case = kp.load(written(tmp_path, machine))
     assert any("Notes" in text for text in case.unread)
     assert all(text.startswith("line ") for text in case.unread)
+
+
+def test_repeated_paths_are_named(tmp_path: Path) -> None:
+    text = slider_crank(1.0, 3.0, 2.0, 1.0).text()
+    path = tmp_path / "machine.asmt"
+    for before, after, message in (
+        ("\t\t\t\trod\n", "\t\t\t\tcrank\n", "another part /.*/crank"),
+        ("\t\t\t\t\t\t\t\tB\n", "\t\t\t\t\t\t\t\tA\n", "another marker /.*/A"),
+    ):
+        assert before in text, before
+        path.write_text(text.replace(before, after, 1))
+        with pytest.raises(kp.FileError, match=message):
+            kp.load(path)

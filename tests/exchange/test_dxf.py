@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Any
 
@@ -158,3 +159,65 @@ def test_binary_and_broken_files_are_refused(tmp_path: Path) -> None:
         path.write_bytes(content)
         with pytest.raises(kp.FileError, match=message):
             kp.load(path)
+
+
+def test_points_at_one_place_are_pinned_wherever_it_lies(tmp_path: Path) -> None:
+    """Their coordinates differ by the rounding of a file with six decimals."""
+    rng = np.random.default_rng(3)
+    document, space, path = drawing(tmp_path)
+    for k, (x, y) in enumerate(rng.uniform(-100, 100, (40, 2))):
+        for layer, shift in ((f"a{k}", -2e-6), (f"b{k}", 2e-6)):
+            space.add_circle((x + shift, y), 2, dxfattribs={"layer": layer})
+    document.saveas(path)
+    joints = kp.load(path).model.tree()["joints"].values()
+    assert {(joint["i"], joint["j"]) for joint in joints} == {
+        (f"a{k}.P1", f"b{k}.P1") for k in range(40)
+    }
+
+
+def test_what_names_no_point_lies_on_a_sheet_or_is_a_mesh_is_listed(tmp_path: Path) -> None:
+    document, space, path = drawing(tmp_path)
+    space.add_circle((0, 0), 2, dxfattribs={"layer": "a"})
+    document.paperspace().add_circle((9, 0), 2, dxfattribs={"layer": "a"})
+    for text, place in (("A", (0, 0)), ("B", (0, 0)), ("far", (5, 5))):
+        space.add_text(text, dxfattribs={"layer": "a", "insert": place})
+    mesh = space.add_polymesh((3, 3), dxfattribs={"layer": "a"})
+    mesh.close(True, True)
+    document.saveas(path)
+    case = kp.load(path)
+    assert case.model.tree()["bodies"]["a"]["points"] == {"A": [0, 0]}
+    for told, times in (("on a sheet", 1), ("name of no point", 2), ("mesh", 1)):
+        assert sum(told in text for text in case.unread) == times, told
+
+
+def test_lost_lines_of_a_file_are_named(tmp_path: Path) -> None:
+    document, space, path = drawing(tmp_path)
+    attributes = {"layer": "a"}
+    space.add_lwpolyline([(0, 0), (9, 0), (9, 9), (0, 9)], close=True, dxfattribs=attributes)
+    space.add_circle((3, 4), 2, dxfattribs=attributes)
+    document.saveas(path)
+    text = path.read_text()
+    kp.load(path)
+    for lost, message in (
+        ("  0\nEOF\n", "no end, EOF"),
+        (" 20\n9.0\n", "LWPOLYLINE: a coordinate is missing"),
+        (" 10\n3.0\n", "CIRCLE: a coordinate is missing"),
+    ):
+        assert lost in text
+        path.write_text(text.replace(lost, "", 1))
+        with pytest.raises(kp.FileError, match=message):
+            kp.load(path)
+
+
+def test_a_large_drawing_is_read_quickly(tmp_path: Path) -> None:
+    """Points and texts of one layer at many places."""
+    n = 20_000
+    parts = ["0\nSECTION\n2\nENTITIES"]
+    for k in range(n):
+        parts.append(f"0\nPOINT\n8\na\n10\n{k}\n20\n1\n0\nTEXT\n8\na\n10\n{k}\n20\n1\n1\nA")
+    path = tmp_path / "large.dxf"
+    path.write_text("\n".join([*parts, "0\nENDSEC\n0\nEOF\n"]))
+    began = time.perf_counter()
+    points = kp.load(path).model.tree()["bodies"]["a"]["points"]
+    assert time.perf_counter() - began < 5
+    assert len(points) == n

@@ -158,3 +158,30 @@ def test_entities_are_refused(tmp_path: Path) -> None:
     path.write_text('<!DOCTYPE a [<!ENTITY a "&a;&a;">]><linkage2>&a;</linkage2>')
     with pytest.raises(kp.FileError, match="DTD"):
         kp.load(path)
+
+
+def test_repeated_numbers_and_other_ratios_are_named(tmp_path: Path) -> None:
+    places = {0: (0, 0, INPUT), 1: (30, 0, ""), 2: (90, 0, 'anchor="true"')}
+    path = written(tmp_path, places, [[0, 1], [2, 1]])
+    own = path.read_text()
+    ratio = '<ratios><ratio type="{}"{}><link id="0" size="1"/><link id="1" size="1"/>{}</ratio>'
+    for text, message in (
+        (own.replace('connector id="1" layer', 'connector id="0" layer', 1), "another connector 0"),
+        (own.replace('Link id="1"', 'Link id="0"'), "another link 0"),
+        (own.replace("</linkage2>", ratio.format("cone", "", "") + "</ratios></linkage2>"), "cone"),
+        (
+            own.replace(
+                "</linkage2>", ratio.format("gears", ' slip="1"', "") + "</ratios></linkage2>"
+            ),
+            "the attribute slip",
+        ),
+        (
+            own.replace(
+                "</linkage2>", ratio.format("gears", "", "<idler/>") + "</ratios></linkage2>"
+            ),
+            "<idler>",
+        ),
+    ):
+        path.write_text(text)
+        with pytest.raises(kp.FileError, match=message):
+            kp.load(path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 import kempe as kp
@@ -57,6 +58,14 @@ def test_the_plain_file_is_a_pendulum(tmp_path: Path) -> None:
             "relaxed at springref",
         ),
         (text(OUT_OF_PLANE, after=CORD), 10, "not in one plane"),
+        (text(joint='<joint name="pin" axis="0 0 0"/>\n'), 6, "axis is zero"),
+        (text(joint='<joint name="pin" axis="0 -1 0" class="no"/>\n'), 6, "no default class"),
+        (text(after='<compiler eulerseq="abc"/>\n'), 9, "not three of the axes"),
+        (text(after='<keyframe><key qvel="1 2"/></keyframe>\n'), 9, "qvel does not have"),
+        (text(after='<keyframe><key ctrl="1"/></keyframe>\n'), 9, "ctrl does not have"),
+        (text(mass=MASS + MASS), 6, "another inertial"),
+        (text(body='<body name="rod" quat="0 0 0 0">' + MASS + "</body>\n"), 7, "quat is zero"),
+        (text(body='<body name="rod">' + MASS + "</body>\n"), 7, "another one has this name"),
         (text(after='<actuator><muscle joint="pin"/></actuator>\n'), 9, "muscle"),
         (text(after='<actuator><motor joint="no"/></actuator>\n'), 9, "motor"),
         (text(after='<keyframe><key qpos="1"/></keyframe>\n'), 9, "qpos is not supported"),
@@ -149,3 +158,26 @@ def test_the_command_line_converts_both_ways(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     bodies = kp.load(tmp_path / "b.toml").model.tree()["bodies"]
     assert set(bodies) == {"ground", "crank", "coupler", "rocker"}
+
+
+def test_defaults_in_two_sections_add_up_and_controls_keep_their_range(tmp_path: Path) -> None:
+    after = (
+        '<default><joint stiffness="3"/></default><default><joint damping="2"/></default>'
+        '<actuator><motor joint="pin" ctrlrange="-1 1"/></actuator>'
+        '<keyframe><key qvel="0.5" ctrl="7"/></keyframe>\n'
+    )
+    (tmp_path / "a.xml").write_text(text(after=after))
+    case = kp.load(tmp_path / "a.xml")
+    start = case.start()
+    moment = -9.81 * 0.5 - 2 * 0.5 + 1
+    assert start["rod.alpha"] == pytest.approx(moment / (0.1 + 0.25), rel=1e-12)
+    assert start["rod.omega"] == 0.5
+
+
+def test_many_points_of_a_body_are_read_quickly(tmp_path: Path) -> None:
+    sites = "".join(f'<site pos="{k} 0 0"/>\n' for k in range(10_000))
+    (tmp_path / "a.xml").write_text(text(sites))
+    began = time.perf_counter()
+    points = kp.load(tmp_path / "a.xml").model.tree()["bodies"]["rod"]["points"]
+    assert time.perf_counter() - began < 5
+    assert len(points) == 10_000 + 1  # and that of the pin

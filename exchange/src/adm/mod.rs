@@ -15,6 +15,7 @@
 //! assembly keep those of the model.
 
 mod formulas;
+mod known;
 mod statements;
 mod tables;
 
@@ -41,7 +42,8 @@ struct Writer {
 
 /// Reads a text.
 pub(crate) fn read(text: &str) -> Read {
-    let all = statements::read(text);
+    let mut all = statements::read(text);
+    known::tell_apart(&mut all);
     let mut writer = Writer {
         text: String::new(),
         lines: Vec::new(),
@@ -55,6 +57,9 @@ pub(crate) fn read(text: &str) -> Read {
     if !all.iter().any(|statement| statement.kind == "PART") {
         writer.unread.lost(0, "there is no statement PART; this is not an .adm file");
         return Read::nothing(writer.unread);
+    }
+    for (line, what) in known::unknown(&all) {
+        writer.unread.lost(line, what);
     }
     for statement in all.iter().filter(|statement| statement.kind == "UNITS") {
         writer.units(statement);
@@ -258,7 +263,7 @@ impl Writer {
         self.put(part.line, 3, "PrincipalMassMarker");
         if let Some(frame) = marker.and_then(|marker| self.frame(marker, "QP")) {
             self.place(part.line, 4, &frame);
-        } else if center.is_some() {
+        } else {
             return Err("CM: there is no such marker".into());
         }
         self.pair(part.line, 4, "Mass", &format!("{:?}", mass * self.mass));
@@ -298,7 +303,9 @@ impl Writer {
         };
         self.put(joint.line, 3, class);
         self.pair(joint.line, 4, "Name", &joint.name);
-        self.joints.insert(joint.id.clone(), format!("/Adams/{}", joint.name));
+        if joint.kind == "JOINT" {
+            self.joints.insert(joint.id.clone(), format!("/Adams/{}", joint.name));
+        }
         self.ends(joint, 4)
     }
 

@@ -192,8 +192,12 @@ impl<'a> Assembly<'a> {
         }
         let Some(times) = node.get("SimulationParameters") else { return };
         let mut number = |name: &str, absent: f64| match times.numbers(name) {
+            Ok(None) => absent,
             Ok(Some(found)) if found.len() == 1 => found[0],
-            Ok(_) => absent,
+            Ok(Some(_)) => {
+                self.unread.lost(times.line, format!("{name}: must be one number"));
+                absent
+            }
             Err((line, why)) => {
                 self.unread.lost(line, why);
                 absent

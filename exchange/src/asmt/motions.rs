@@ -65,8 +65,12 @@ impl Assembly<'_> {
             "" => linked.markers == [i.to_string(), j.to_string()],
             _ => linked.path == path,
         };
-        let found = self.linked.iter().find(fits);
-        found.ok_or_else(|| {
+        let mut found = self.linked.iter().filter(fits);
+        let (first, second) = (found.next(), found.next());
+        if second.is_some() {
+            return Err("MotionJoint: several joints have this name or these markers".into());
+        }
+        first.ok_or_else(|| {
             format!(
                 "MotionJoint: there is no joint {} that was read",
                 short(if path.is_empty() { i } else { path })

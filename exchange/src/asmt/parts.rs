@@ -1,6 +1,6 @@
 //! Parts and markers of an assembly, and their place in the plane.
 
-use super::tree::Node;
+use super::tree::{short, Node};
 use crate::draft::{Draft, Table};
 use crate::space::{
     axis, cross, dot, minus, plus, product, times, turned, unit, Plane, Rotation, Vector, UNTURNED,
@@ -126,6 +126,9 @@ impl Parts {
             }
         };
         let (index, path) = (self.all.len(), part.path.clone());
+        if self.markers.contains_key(&format!("{path}/MassMarker")) {
+            unread.lost(node.line, format!("there is another part {}", short(&path)));
+        }
         self.markers
             .insert(format!("{path}/MassMarker"), Marker { part: index, frame: part.center });
         self.all.push(part);
@@ -140,8 +143,12 @@ impl Parts {
                 }
                 let name = marker.take().value("Name").unwrap_or_default();
                 let Some(frame) = told(frame(marker), unread) else { continue };
-                let marker = Marker { part: index, frame: base.of(&frame) };
-                self.markers.insert(format!("{path}/{name}"), marker);
+                let path = format!("{path}/{name}");
+                if self.markers.contains_key(&path) {
+                    unread.lost(point.line, format!("there is another marker {}", short(&path)));
+                    continue;
+                }
+                self.markers.insert(path, Marker { part: index, frame: base.of(&frame) });
             }
         }
     }

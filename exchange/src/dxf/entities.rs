@@ -18,6 +18,9 @@ pub(super) struct Entity<'a> {
     pub(super) pairs: Vec<Pair<'a>>,
 }
 
+/// The line of an entry that cannot be read, and the reason.
+pub(super) type Fault = (usize, &'static str);
+
 impl<'a> Entity<'a> {
     /// The first text of a code.
     pub(super) fn text(&self, code: i32) -> Option<&'a str> {
@@ -31,6 +34,12 @@ impl<'a> Entity<'a> {
     /// The first number of a code. The error gives the line.
     pub(super) fn number(&self, code: i32) -> Result<Option<f64>, usize> {
         self.pairs.iter().find(|pair| pair.code == code).map(number).transpose()
+    }
+
+    /// A number that the entity must have.
+    pub(super) fn required(&self, code: i32) -> Result<f64, Fault> {
+        let found = self.number(code).map_err(|line| (line, "not a number"))?;
+        found.ok_or((self.line, "a coordinate is missing"))
     }
 
     pub(super) fn flag(&self, code: i32, bit: i64) -> bool {
@@ -76,12 +85,15 @@ fn pairs<'a>(text: &'a str, unread: &mut UnreadList) -> Vec<Pair<'a>> {
 /// The entities of the sections `HEADER` and `ENTITIES`, and the names of the others.
 pub(super) fn read<'a>(text: &'a str, unread: &mut UnreadList) -> (Vec<Pair<'a>>, Vec<Entity<'a>>) {
     let (mut header, mut entities) = (Vec::new(), Vec::<Entity<'a>>::new());
-    let (mut section, mut named) = ("", false);
+    let (mut section, mut named, mut ended) = ("", false, false);
     for pair in pairs(text, unread) {
         match (pair.code, pair.value) {
             (0, "SECTION") => (section, named) = ("", true),
             (0, "ENDSEC") => section = "",
-            (0, "EOF") => break,
+            (0, "EOF") => {
+                ended = true;
+                break;
+            }
             (2, name) if named => (section, named) = (name, false),
             (0, kind) if section == "ENTITIES" => {
                 entities.push(Entity { line: pair.line, kind, pairs: Vec::new() });
@@ -93,6 +105,9 @@ pub(super) fn read<'a>(text: &'a str, unread: &mut UnreadList) -> (Vec<Pair<'a>>
             },
             _ => {}
         }
+    }
+    if !ended && !(header.is_empty() && entities.is_empty()) {
+        unread.lost(0, "the file has no end, EOF; a part of the drawing may be missing");
     }
     (header, entities)
 }

@@ -11,19 +11,27 @@
 //! Open lines and other entities of the drawing are listed; blocks are named.
 
 mod entities;
+mod places;
 mod shape;
 mod write;
 
 use crate::draft::Draft;
 use crate::unread::UnreadList;
 use crate::Read;
-use entities::{number, Entity};
+use entities::{number, Entity, Fault};
+use places::Places;
 use serde_json::json;
 use shape::Corner;
 pub use write::{write, Line, Sheet};
 
 /// Mass per area of a plate, kg/m²: 5 mm of steel.
 const DENSITY: f64 = 7850.0 * 0.005;
+/// Flags of a `POLYLINE` that is a mesh in space.
+const MESH: i64 = 16 | 64;
+/// Flag of a `VERTEX` that a curve does not pass.
+const FRAME: i64 = 16;
+/// Largest distance of points at one place, as a share of the largest coordinate.
+const CLOSE: f64 = 1e-7;
 /// Mass per length of a body without an outline, kg/m.
 const ROD: f64 = 1.0;
 
@@ -33,7 +41,15 @@ struct Layer {
     name: String,
     outlines: Vec<Vec<Corner>>,
     points: Vec<[f64; 2]>,
-    texts: Vec<([f64; 2], String)>,
+    texts: Vec<Text>,
+}
+
+/// A text with its place and its line.
+#[derive(Debug)]
+struct Text {
+    at: [f64; 2],
+    text: String,
+    line: usize,
 }
 
 /// Reads a text.
@@ -61,7 +77,7 @@ pub(crate) fn read(text: &str) -> Read {
     };
     let layers = layers(&entities, unit, &mut unread);
     let mut draft = Draft::titled("DXF");
-    draw(layers, &mut draft);
+    draw(layers, &mut draft, &mut unread);
     Read { case: Some(draft.text()), unread: unread.sorted(), results: Vec::new() }
 }
 
@@ -87,41 +103,46 @@ fn layers(entities: &[Entity<'_>], unit: f64, unread: &mut UnreadList) -> Vec<La
             layers.push(Layer { name: name.to_string(), ..Layer::default() });
             layers.len() - 1
         });
-        if let Err(line) = take(&entities[k..end], unit, &mut layers[place], unread) {
-            unread.lost(line, format!("{}: not a number", entity.kind));
+        if let Err((line, why)) = take(&entities[k..end], unit, &mut layers[place], unread) {
+            unread.lost(line, format!("{}: {why}", entity.kind));
         }
         k = end;
     }
     layers
 }
 
-/// Adds an entity to its layer. The error is the line of a text that is not a number.
+/// Adds an entity to its layer.
 fn take(
     entities: &[Entity<'_>],
     unit: f64,
     layer: &mut Layer,
     unread: &mut UnreadList,
-) -> Result<(), usize> {
+) -> Result<(), Fault> {
     let entity = &entities[0];
+    let number = |code| entity.number(code).map_err(|line| (line, "not a number"));
     // a plane seen from behind has x to the left
-    let (up, across) =
-        (entity.number(230)?.unwrap_or(1.0), (entity.number(210)?, entity.number(220)?));
+    let (up, across) = (number(230)?.unwrap_or(1.0), (number(210)?, number(220)?));
     let tilted = |x: Option<f64>| x.is_some_and(|x| x.abs() > 1e-9);
     if tilted(across.0) || tilted(across.1) {
         unread.lost(entity.line, format!("{}: it lies in another plane than xy", entity.kind));
         return Ok(());
     }
     let side = if up < 0.0 { -1.0 } else { 1.0 };
-    let place = |entity: &Entity<'_>| -> Result<[f64; 2], usize> {
-        Ok([
-            side * unit * entity.number(10)?.unwrap_or(0.0),
-            unit * entity.number(20)?.unwrap_or(0.0),
-        ])
+    let place = |entity: &Entity<'_>| -> Result<[f64; 2], Fault> {
+        Ok([side * unit * entity.required(10)?, unit * entity.required(20)?])
     };
     match entity.kind {
+        kind if entity.flag(67, 1) => {
+            let kind: String = kind.chars().take(40).collect();
+            unread.left(entity.line, format!("{kind} on layer {}: on a sheet", layer.name));
+        }
+        "POLYLINE" if entity.flag(70, MESH) => {
+            unread.left(entity.line, format!("mesh on layer {}: not a line", layer.name));
+        }
         "CIRCLE" | "POINT" => layer.points.push(place(entity)?),
         "TEXT" => {
-            layer.texts.push((place(entity)?, entity.text(1).unwrap_or_default().to_string()))
+            let text = entity.text(1).unwrap_or_default().to_string();
+            layer.texts.push(Text { at: place(entity)?, text, line: entity.line });
         }
         "LWPOLYLINE" | "POLYLINE" if entity.flag(70, 1) => {
             let line = match entity.kind {
@@ -154,25 +175,28 @@ fn take(
 }
 
 /// The corners of a `POLYLINE`.
-fn vertices(entities: &[Entity<'_>], side: f64, unit: f64) -> Result<Vec<Corner>, usize> {
-    let all = entities.iter().filter(|entity| entity.kind == "VERTEX");
+fn vertices(entities: &[Entity<'_>], side: f64, unit: f64) -> Result<Vec<Corner>, Fault> {
+    let all = entities.iter().filter(|entity| entity.kind == "VERTEX" && !entity.flag(70, FRAME));
     all.map(|vertex| {
-        let [x, y] = [vertex.number(10)?.unwrap_or(0.0), vertex.number(20)?.unwrap_or(0.0)];
-        let bulge = side * vertex.number(42)?.unwrap_or(0.0);
+        let [x, y] = [vertex.required(10)?, vertex.required(20)?];
+        let bulge = vertex.number(42).map_err(|line| (line, "not a number"))?;
+        let bulge = side * bulge.unwrap_or(0.0);
         Ok(Corner { at: [side * unit * x, unit * y], bulge })
     })
     .collect()
 }
 
 /// The corners of an `LWPOLYLINE`.
-fn light(entity: &Entity<'_>, side: f64, unit: f64) -> Result<Vec<Corner>, usize> {
+fn light(entity: &Entity<'_>, side: f64, unit: f64) -> Result<Vec<Corner>, Fault> {
     let mut line: Vec<Corner> = Vec::new();
+    let value = |pair| number(pair).map_err(|line| (line, "not a number"));
+    let rows = entity.pairs.iter().filter(|pair| pair.code == 20).count();
     for pair in &entity.pairs {
         match pair.code {
-            10 => line.push(Corner { at: [side * unit * number(pair)?, 0.0], bulge: 0.0 }),
+            10 => line.push(Corner { at: [side * unit * value(pair)?, 0.0], bulge: 0.0 }),
             20 | 42 => {
-                let value = number(pair)?;
-                let last = line.last_mut().ok_or(pair.line)?;
+                let value = value(pair)?;
+                let last = line.last_mut().ok_or((pair.line, "a coordinate is missing"))?;
                 if pair.code == 20 {
                     last.at[1] = unit * value;
                 } else {
@@ -182,17 +206,46 @@ fn light(entity: &Entity<'_>, side: f64, unit: f64) -> Result<Vec<Corner>, usize
             _ => {}
         }
     }
+    let count = entity.text(90).and_then(|text| text.parse::<usize>().ok());
+    if rows != line.len() || count.is_some_and(|count| count != line.len()) {
+        return Err((entity.line, "a coordinate is missing"));
+    }
     Ok(line)
 }
 
+/// The names of the points of a layer: the texts at their places. Other texts are listed.
+fn names(layer: &Layer, close: f64, unread: &mut UnreadList) -> Vec<Option<String>> {
+    let (mut places, mut texts) = (Places::new(close), Vec::<(&Text, bool)>::new());
+    let mut left = |text: &Text| {
+        let what = "a text that is the name of no point is left out";
+        unread.left(text.line, format!("TEXT on layer {}: {what}", layer.name));
+    };
+    for text in &layer.texts {
+        match !text.text.trim().is_empty() && places.put(text.at).1 {
+            true => texts.push((text, false)),
+            false => left(text),
+        }
+    }
+    let mut named = Vec::new();
+    for at in &layer.points {
+        let text = places.find(*at).map(|place| {
+            texts[place].1 = true;
+            texts[place].0.text.clone()
+        });
+        named.push(text);
+    }
+    texts.iter().filter(|(_, used)| !used).for_each(|(text, _)| left(text));
+    named
+}
+
 /// Bodies from layers, and pins where points of several layers coincide.
-fn draw(layers: Vec<Layer>, draft: &mut Draft) {
+fn draw(layers: Vec<Layer>, draft: &mut Draft, unread: &mut UnreadList) {
     let all = layers.iter().flat_map(|layer| &layer.points);
-    let size = all.flat_map(|at| at.map(f64::abs)).fold(0.0, f64::max);
-    let cell = |x: f64| (x / (1e-7 * size).max(1e-12)).round() as i64;
-    let mut pins = std::collections::BTreeMap::<(i64, i64), Vec<(String, String)>>::new();
+    let close = CLOSE * all.flat_map(|at| at.map(f64::abs)).fold(0.0, f64::max);
+    let (mut places, mut pins) = (Places::new(close), Vec::<Vec<(String, String)>>::new());
     for layer in layers {
         let ground = layer.name == "ground";
+        let names = names(&layer, close, unread);
         if !ground && layer.outlines.is_empty() && layer.points.is_empty() {
             continue;
         }
@@ -209,20 +262,16 @@ fn draw(layers: Vec<Layer>, draft: &mut Draft) {
             }
         }
         draft.bodies.insert(body.clone(), entry);
-        for (k, at) in layer.points.iter().enumerate() {
-            let near = |text: &&([f64; 2], String)| {
-                (text.0[0] - at[0]).hypot(text.0[1] - at[1]) <= 1e-7 * size
-                    && !text.1.trim().is_empty()
-            };
-            let name = layer
-                .texts
-                .iter()
-                .find(near)
-                .map_or_else(|| format!("P{}", k + 1), |text| text.1.clone());
+        for (k, (at, name)) in layer.points.iter().zip(names).enumerate() {
+            let name = name.unwrap_or_else(|| format!("P{}", k + 1));
             let point = draft.point(&body, &name, *at);
-            let here = pins.entry((cell(at[0]), cell(at[1]))).or_default();
-            if here.iter().all(|(other, _)| *other != body) {
-                here.push((body.clone(), point));
+            let (place, new) = places.put(*at);
+            if new {
+                pins.push(Vec::new());
+            }
+            // a body has one point at a place
+            if pins[place].iter().all(|(other, _)| *other != body) {
+                pins[place].push((body.clone(), point));
             }
         }
         if !ground {
@@ -231,7 +280,7 @@ fn draw(layers: Vec<Layer>, draft: &mut Draft) {
             }
         }
     }
-    for (_, mut ends) in pins {
+    for mut ends in pins {
         ends.sort_by_key(|(body, _)| body != "ground");
         for (_, point) in ends.iter().skip(1) {
             let wanted = point.rsplit('.').next().unwrap_or_default().to_string();

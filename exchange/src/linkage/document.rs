@@ -216,6 +216,19 @@ impl Reader<'_> {
     }
 
     fn ratio(&mut self, node: &Node<'_, '_>) -> Ratio {
+        self.rest(node, &["type"]);
+        for child in node.children().filter(Node::is_element) {
+            match child.has_tag_name("link") {
+                true => self.rest(&child, &["id", "size"]),
+                false => self.unknown(&child),
+            }
+        }
+        let kind = node.attribute("type").unwrap_or_default();
+        if !matches!(kind, "gears" | "chain") {
+            let short: String = kind.chars().take(40).collect();
+            self.unread
+                .lost(self.line(node), format!("ratio: the type '{short}' is not supported"));
+        }
         let wheels = node.children().filter(|child| child.has_tag_name("link"));
         let wheels =
             wheels.map(|child| (self.id(&child, "id").unwrap_or(-1), self.number(&child, "size")));

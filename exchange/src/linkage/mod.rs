@@ -21,7 +21,7 @@ use crate::unread::UnreadList;
 use crate::Read;
 use document::{Connector, Document, Link};
 use serde_json::json;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A mechanism while it is read: the body of each link, and the bodies of each connector.
 struct Mechanism<'a> {
@@ -61,12 +61,21 @@ pub(crate) fn read(text: &str) -> Read {
 /// Mass of a link per length, kg/m. The files have no masses; positions and rates do not depend on them.
 const DENSITY: f64 = 1.0;
 impl<'a> Mechanism<'a> {
-    fn new(document: &'a Document, unread: UnreadList) -> Self {
+    fn new(document: &'a Document, mut unread: UnreadList) -> Self {
         let draft = Draft::titled("Linkage");
         let by_id =
             |ids: Vec<i64>| ids.into_iter().enumerate().rev().map(|(k, id)| (id, k)).collect();
         let places: HashMap<i64, usize> = by_id(document.connectors.iter().map(|c| c.id).collect());
         let links: HashMap<i64, usize> = by_id(document.links.iter().map(|link| link.id).collect());
+        for (what, lines) in [
+            ("connector", document.connectors.iter().map(|c| (c.id, c.line)).collect::<Vec<_>>()),
+            ("link", document.links.iter().map(|link| (link.id, link.line)).collect()),
+        ] {
+            let mut known = HashSet::new();
+            for (id, line) in lines.into_iter().filter(|(id, _)| !known.insert(*id)) {
+                unread.lost(line, format!("there is another {what} {id}"));
+            }
+        }
         let mut owners = vec![Vec::new(); document.connectors.len()];
         for (k, link) in
             document.links.iter().enumerate().filter(|(_, link)| link.actuator.is_none())

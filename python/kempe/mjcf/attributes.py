@@ -59,6 +59,17 @@ class Given:
             return default
         return found
 
+    def direction(
+        self, name: str, otherwise: Iterable[float], count: int, of: int | None = None
+    ) -> Floats:
+        """Numbers of an attribute, the first ``of`` of which must not all be zero."""
+        default = np.array(list(otherwise), dtype=float)
+        found = self.numbers(name, default, count)
+        if found[:of].any():
+            return found
+        self.unread.lost(self.node, f"{name} is zero; it must be a direction")
+        return default
+
     def number(self, name: str, otherwise: float = 0.0) -> float:
         """One number of an attribute."""
         return float(self.numbers(name, [otherwise], 1)[0])

@@ -20,9 +20,11 @@ def read_forces(reader: Structure) -> None:
     for section in reader.root.each("tendon"):
         for node in section.children:
             _tendon(reader, node, tendons)
-    for section in reader.root.each("actuator"):
-        for node in section.children:
-            _actuator(reader, node, tendons)
+    nodes = [node for section in reader.root.each("actuator") for node in section.children]
+    if reader.has_controls and len(nodes) != len(reader.controls):
+        reader.not_fitting("ctrl", "actuators")
+    for node in nodes:
+        _actuator(reader, node, tendons)
 
 
 def _tendon(reader: Structure, node: Node, tendons: dict[str, Line]) -> None:
@@ -95,7 +97,8 @@ def _actuator(reader: Structure, node: Node, tendons: dict[str, Line]) -> None:
     line = _line(reader, node, given, tendons)
     law = _law(node, given)
     gear = float(given.numbers("gear", [1.0])[0])
-    given.skip("class", "group", "user", "ctrlrange", "ctrllimited")
+    control = _clamped(given, control, reader.limits)
+    given.skip("class", "group", "user")
     given.rest()
     if line is None or law is None:
         reader.unread.lost(node, "it is not a force on a joint or a tendon that was read")
@@ -114,6 +117,15 @@ def _actuator(reader: Structure, node: Node, tendons: dict[str, Line]) -> None:
         key = "force" if entry["type"] == "actuator" else "value"
         law_text = f"({gear * coef!r})*({value})"
         reader.forces[reader.names.new(name)] = {**entry, key: law_text}
+
+
+def _clamped(given: Given, control: float, automatic: bool) -> float:
+    """The control within its range."""
+    low, high = given.numbers("ctrlrange", [0.0, 0.0], 2)
+    limited = given.text("ctrllimited", "auto")
+    if limited == "true" or (limited == "auto" and automatic and (low, high) != (0.0, 0.0)):
+        return float(min(max(control, low), high))
+    return control
 
 
 def _line(reader: Structure, node: Node, given: Given, tendons: dict[str, Line]) -> Line | None:

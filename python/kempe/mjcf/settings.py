@@ -28,15 +28,19 @@ class Settings:
         self.root, self.unread = root, Unread()
         self.defaults: dict[str, dict[str, dict[str, str]]] = {"main": {}}
         self.gravity = np.array([0.0, 0.0, -9.81])
-        self.degrees, self.euler, self.collides = True, "xyz", True
+        self.degrees, self.euler, self.collides, self.limits = True, "xyz", True, True
         for node in root.children:
             self._section(node)
         self.rates, self.controls = self._key()
+        self.has_rates, self.has_controls = bool(self.rates), bool(self.controls)
         self.plane = self._plane()
 
     def given(self, node: Node, style: str = "main") -> Given:
         """The attributes of an element with those of its default class."""
-        own = self.defaults.get(node.attributes.get("class", style), {}).get(node.tag, {})
+        name = node.attributes.get("class", style)
+        if name not in self.defaults:
+            self.unread.lost(node, f"there is no default class {name!r}")
+        own = self.defaults.get(name, {}).get(node.tag, {})
         return Given(node, own | node.attributes, self.unread)
 
     def _section(self, node: Node) -> None:
@@ -44,12 +48,17 @@ class Settings:
             given = Given(node, node.attributes, self.unread)
             self.degrees = given.text("angle", "degree") != "radian"
             self.euler = given.text("eulerseq", "xyz")
-            given.skip("autolimits", "meshdir", "texturedir", "assetdir", "strippath", "usethread")
+            if len(self.euler) != 3 or not set(self.euler.lower()) <= set("xyz"):
+                self.unread.lost(node, f"eulerseq={self.euler!r} is not three of the axes x, y, z")
+                self.euler = "xyz"
+            self.limits = given.flag("autolimits", True)
+            given.skip("meshdir", "texturedir", "assetdir", "strippath", "usethread")
             given.rest()
         elif node.tag == "option":
             self._option(node)
         elif node.tag == "default":
-            self._default(node, {}, node.attributes.get("class", "main"))
+            name = node.attributes.get("class", "main")
+            self._default(node, self.defaults.get(name, {}), name)
         elif node.tag == "keyframe":
             for key in list(node.each("key"))[1:]:
                 self.unread.harmless(key, "only the first key is the start")
@@ -114,7 +123,7 @@ class Settings:
             for joint in node.each("joint"):
                 given = Given(joint, self.given(joint, inner).left, Unread())
                 if given.text("type", "hinge") == "hinge":
-                    axis = given.numbers("axis", [0, 0, 1], 3)
+                    axis = given.direction("axis", [0, 0, 1], 3)
                     return joint, own @ (axis / np.linalg.norm(axis))
             found = self._first_hinge(node, own, inner)
             if found is not None:
@@ -125,9 +134,9 @@ class Settings:
         """The rotation of a frame within another one."""
         unit = math.pi / 180 if self.degrees else 1.0
         if "quat" in given.left:
-            return of_quaternion(given.numbers("quat", [1, 0, 0, 0], 4))
+            return of_quaternion(given.direction("quat", [1, 0, 0, 0], 4))
         if "axisangle" in given.left:
-            *axis, angle = given.numbers("axisangle", [0, 0, 1, 0], 4)
+            *axis, angle = given.direction("axisangle", [0, 0, 1, 0], 4, 3)
             return of_axis(np.array(axis), unit * float(angle))
         if "euler" in given.left:
             return of_euler(unit * given.numbers("euler", [0, 0, 0], 3), self.euler)

@@ -69,8 +69,8 @@ class Plane:
         return [float(place @ self.x), float(place @ self.y)]
 
     def contains(self, direction: Floats) -> bool:
-        """Whether a direction is in the plane."""
-        return abs(float(direction @ self.normal)) < TOLERANCE
+        """Whether a direction is in the plane; its length does not matter."""
+        return abs(float(direction @ self.normal)) <= TOLERANCE * float(np.linalg.norm(direction))
 
     def sense(self, axis: Floats) -> int:
         """1 or -1 for an axis along or against the normal, 0 for another one."""

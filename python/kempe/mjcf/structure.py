@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from kempe.base.arrays import Floats
-from kempe.mjcf.attributes import Given, Names, titled
+from kempe.mjcf.attributes import Given, Names
 from kempe.mjcf.settings import Settings
 from kempe.mjcf.xml import Node
 
@@ -45,6 +46,9 @@ class Structure(Settings):
         self.sites: dict[str, tuple[Carried, Floats]] = {}
         self.moves: dict[str, tuple[str, str, int]] = {}
         self.touching: dict[str, Node] = {}
+        #: The names of points by body, wanted name and place, and the last number of equal names.
+        self.points: dict[tuple[object, ...], str] = {}
+        self.equal: dict[tuple[str, str], int] = {}
         #: Whether springs of joints are relaxed at zero coordinates, as tendons then are.
         self.relaxed = True
         for world in root.each("worldbody"):
@@ -55,6 +59,18 @@ class Structure(Settings):
         for section in root.each("equality"):
             for node in section.children:
                 self._equation(node)
+        if self.rates:
+            self.not_fitting("qvel", "joints")
+
+    def not_fitting(self, name: str, what: str) -> None:
+        """Report a list of the key frame that does not have a number for each joint or actuator."""
+        key = next(key for section in self.root.each("keyframe") for key in section.each("key"))
+        self.unread.lost(key, f"{name} does not have as many numbers as there are {what}")
+
+    def _new(self, node: Node, known: Mapping[str, object]) -> None:
+        """Report an element whose name another one of its kind has."""
+        if node.attributes.get("name") in known:
+            self.unread.lost(node, "another one has this name")
 
     # --- bodies and joints ------------------------------------------------------------------------
 
@@ -64,6 +80,7 @@ class Structure(Settings):
             if child.tag == "site":
                 given = self.given(child, style)
                 place = body.at(given.numbers("pos", [0, 0, 0], 3))
+                self._new(child, self.sites)
                 self.sites[given.text("name")] = body, place
                 self.point(
                     body, given.node.attributes.get("name", "site").rpartition(".")[2], place
@@ -82,15 +99,20 @@ class Structure(Settings):
         """A point of a body, as ``body.point``; one at the same place with this name is used."""
         points = self.bodies[body.name].setdefault("points", {})
         at = self.plane.point(place - body.place)
-        name = base = "".join(c if c.isalnum() and c.isascii() else "_" for c in wanted) or "P"
-        name = base = f"P{base}" if base[0].isdigit() else base
-        k = 2
-        while name in points and not np.allclose(
-            points[name], at, rtol=0, atol=1e-12 * math.hypot(*at)
-        ):
-            name, k = f"{base}_{k}", k + 1
-        points[name] = at
-        return f"{body.name}.{name}"
+        base = "".join(c if c.isalnum() and c.isascii() else "_" for c in wanted) or "P"
+        base = f"P{base}" if base[0].isdigit() else base
+        # equal up to rounding
+        scale = 1e-12 * 2.0 ** math.frexp(math.hypot(*at))[1]
+        same = body.name, base, scale, *(round(x / scale) if scale else 0 for x in at)
+        if same not in self.points:
+            name, k = base, self.equal.get((body.name, base), 1)
+            while name in points:
+                k += 1
+                name = f"{base}_{k}"
+            self.equal[body.name, base] = k
+            self.points[same] = name
+            points[name] = at
+        return f"{body.name}.{self.points[same]}"
 
     def _body(self, node: Node, carrier: Carried, style: str) -> None:
         given = self.given(node, style)
@@ -101,6 +123,7 @@ class Structure(Settings):
         )
         given.skip("gravcomp" if given.left.get("gravcomp") == "0" else "", "quat", "user")
         given.rest()
+        self._new(node, self.known)
         self.known[node.attributes.get("name", body.name)] = body
         joints = list(node.each("joint"))
         fixed = carrier.name == "ground" and not joints
@@ -128,7 +151,10 @@ class Structure(Settings):
         return found
 
     def _mass(self, node: Node, body: Carried, fixed: bool) -> dict[str, Any]:
-        found = next(node.each("inertial"), None)
+        every = list(node.each("inertial"))
+        found = every[0] if every else None
+        for other in every[1:]:
+            self.unread.lost(other, "the body has another inertial")
         if found is None and fixed:
             return {"mass": 0.0, "inertia": 0.0}
         if found is None:
@@ -156,10 +182,14 @@ class Structure(Settings):
         given = self.given(node, style)
         name = self.names.new(given.text("name", f"{after.name}_joint"))
         kind = given.text("type", "hinge")
-        axis = after.turn @ given.numbers("axis", [0, 0, 1], 3)
+        axis = after.turn @ given.direction("axis", [0, 0, 1], 3)
         axis = axis / np.linalg.norm(axis)
         place = after.at(given.numbers("pos", [0, 0, 0], 3))
-        rate = self.rates.pop(0) if self.rates else 0.0
+        rate = 0.0
+        if self.has_rates:
+            if not self.rates:
+                self.not_fitting("qvel", "joints")
+            rate = self.rates.pop(0) if self.rates else 0.0
         spring = given.number("stiffness"), given.number("damping"), given.number("springref")
         given.skip(*_LOOKS, *_SOFT, "margin", "limited" if "range" not in given.left else "")
         given.zero("armature", "frictionloss", "ref")
@@ -170,7 +200,7 @@ class Structure(Settings):
                 self.unread.lost(node, "its axis is not normal to the plane of the motion")
                 sense = 1
             self.joints[name] = {"type": "revolute", "i": ends[0], "j": ends[1]}
-            self.moves[titled(node).partition(" ")[2] or name] = name, "angle", sense
+            move = name, "angle", sense
             self._turns(before, after, place, sense * rate)
         elif kind == "slide":
             if not self.plane.contains(axis):
@@ -178,16 +208,18 @@ class Structure(Settings):
             x, y = self.plane.point(axis)
             axes = [math.atan2(y, x)] * 2
             self.joints[name] = {"type": "translational", "i": ends[0], "j": ends[1], "axes": axes}
-            self.moves[titled(node).partition(" ")[2] or name] = name, "displacement", 1
+            move = name, "displacement", 1
             self._turns(before, after, after.place, 0.0)
             after.velocity = after.velocity + rate * axis
             self.guess |= self._velocities(after)
         else:
             self.unread.lost(node, f"joints of type {kind} move in space")
             return
+        self._new(node, self.moves)
+        self.moves[node.attributes.get("name", name)] = move
         self.relaxed &= spring[2] == 0
         if any(spring[:2]):
-            self._spring(name, kind, spring)
+            self._spring(move, kind, spring)
 
     def _turns(self, before: Carried, after: Carried, pivot: Floats, rate: float) -> None:
         """The velocity of a body that turns about a pivot of another one, with a relative rate."""
@@ -202,9 +234,11 @@ class Structure(Settings):
         values = {"angle": 0.0, "vx": vx, "vy": vy, "omega": body.omega}
         return {f"{body.name}.{name}": value for name, value in values.items()}
 
-    def _spring(self, name: str, kind: str, of: tuple[float, float, float]) -> None:
+    def _spring(
+        self, move: tuple[str, str, int], kind: str, of: tuple[float, float, float]
+    ) -> None:
         """The spring and the damper of a joint."""
-        (_, coordinate, sense), (k, c, rest) = list(self.moves.values())[-1], of
+        (name, coordinate, sense), (k, c, rest) = move, of
         unit = math.pi / 180 if self.degrees and kind == "hinge" else 1.0
         speed = {"angle": "omega", "displacement": "rate"}[coordinate]
         value = f"-{k!r}*({name}.{coordinate} - ({sense * unit * rest!r})) - {c!r}*{name}.{speed}"
