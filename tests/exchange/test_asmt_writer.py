@@ -160,6 +160,26 @@ def test_ondsel_solver_computes_the_same(tmp_path: Path) -> None:
                 assert found == pytest.approx(value, rel=1e-9, abs=1e-11), (name, quantity)
 
 
+@pytest.mark.parametrize("coordinate", ["hinge.angle", "door.angle"])
+@pytest.mark.parametrize("ends", [("door.A", "ground.O"), ("ground.O", "door.A")])
+def test_angles_of_turned_joint_frames_are_driven_and_limited(
+    tmp_path: Path, ends: tuple[str, str], coordinate: str
+) -> None:
+    m = kp.Model("door")
+    m.ground.points(O=(0, 0))
+    m.bar("door", mass=1, length=1, ends=("A", "B"))
+    m.bar("leaf", mass=1, length=1, ends=("A", "B"))
+    m.revolute("hinge", *ends, axes=(0.7, "30 deg"))
+    m.revolute("fold", "door.B", "leaf.A", axes=(-1.1, 0.4))
+    m.coordinate_driver("turn", coordinate, value="0.3 + 2*t")
+    m.stop("bounds", "fold.angle", lower=-0.8, upper=0.6, restitution=0)
+    own = kp.Case(m, {"set": {"fold.angle": 0.5}})
+    kp.write_asmt(own, tmp_path / "out.asmt")
+    again = kp.load(tmp_path / "out.asmt")
+    found = differences(own, again, 0.3, 0.01)
+    assert max(found[name] for name in ("x", "angle", "vx", "omega")) < 1e-7, found
+
+
 def test_a_stop_is_a_limit(tmp_path: Path) -> None:
     m = kp.Model("door", gravity=(0, -9.81))
     m.ground.points(O=(0, 0))

@@ -175,14 +175,16 @@ class _Writer:
     # --- drivers and stops ------------------------------------------------------------------------
 
     def _moved(self, place: str, coordinate: str) -> tuple[ConstraintInfo, float, float]:
-        """A joint, a factor and a sum: its coordinate is factor × the given one + sum.
+        """A joint, a factor and a sum: its coordinate in the file is factor × the given one + sum.
 
         The given coordinate is that of the joint, or of a body that the joint carries on ground.
         """
         owner, _, quantity = coordinate.replace("`", "").rpartition(".")
         joints = self.model.constraints
         if owner in joints and quantity == _COORDINATES.get(joints[owner].type):
-            return joints[owner], 1.0, 0.0
+            joint = joints[owner]
+            # the angle in the file is that between the x axes of the markers
+            return joint, 1.0, joint.axis_j - joint.axis_i if quantity == "angle" else 0.0
         body = owner.split(".")[0]
         for joint in joints.values():
             if {joint.i, joint.j} != {body, GROUND}:
