@@ -221,3 +221,28 @@ def test_a_large_drawing_is_read_quickly(tmp_path: Path) -> None:
     points = kp.load(path).model.tree()["bodies"]["a"]["points"]
     assert time.perf_counter() - began < 5
     assert len(points) == n
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize(
+    "names", [("a/b", "a:b"), ("0", "x"), ("Ground", "z"), ("A", "a"), ("ground ", "y")]
+)
+def test_bodies_whose_names_are_alike_in_a_file_keep_their_layers(
+    tmp_path: Path, names: tuple[str, str], size: float
+) -> None:
+    m = kp.Model("two")
+    m.ground.points(O=(size / 3, size / 7))
+    for name in names:
+        m.bar(name, mass=1, length=size, ends=("O", "P"))
+    m.revolute("J", "ground.O", f"{names[0]}.O")
+    m.revolute("K", f"{names[0]}.P", f"{names[1]}.P")
+    start = kp.assemble(m, {f"{names[0]}.angle": 0.4, f"{names[1]}.angle": -1.0})
+    case = kp.load(kp.write_dxf(start, tmp_path / "out.dxf"))
+    tree = case.model.tree()
+    assert case.unread == () and len(tree["bodies"]) == 3 and len(tree["joints"]) == 2
+    assert tree["bodies"]["ground"]["points"]["O"] == pytest.approx([size / 3, size / 7], rel=1e-14)
+    found = list(points_of(case).values())
+    for name in names:
+        for point in ("O", "P"):
+            place = [start[f"{name}.{point}.{axis}"] for axis in "xy"]
+            assert min(np.hypot(*(place - other)) for other in found) < 1e-12 * size

@@ -1,5 +1,6 @@
 //! Writes DXF files of the release 12, which every program reads.
 
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 
 /// Layer, whether it is closed, corners in metres, and the bulge after each corner.
@@ -27,16 +28,8 @@ const NOT_IN_LAYERS: [char; 13] =
 /// The text of a drawing; `None` if the unit has no code.
 pub fn write(sheet: &Sheet) -> Option<String> {
     let code = UNITS.iter().find(|(unit, _)| (unit / sheet.unit - 1.0).abs() < 1e-9)?.1;
-    let mut layers: Vec<String> = Vec::new();
-    let named = sheet.lines.iter().map(|line| &line.0);
-    let named = named
-        .chain(sheet.circles.iter().map(|circle| &circle.0))
-        .chain(sheet.texts.iter().map(|text| &text.0));
-    for name in named.map(|name| one_line(name, &NOT_IN_LAYERS)) {
-        if !layers.contains(&name) {
-            layers.push(name);
-        }
-    }
+    let (layers, named) = layers(sheet);
+    let named = |layer: &String| &named[layer.as_str()];
     let mut out = format!(
         "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$INSUNITS\n70\n{code}\n0\nENDSEC\n"
     );
@@ -48,7 +41,7 @@ pub fn write(sheet: &Sheet) -> Option<String> {
     out += "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
     let length = |x: f64| format!("{:?}", x / sheet.unit);
     for (layer, closed, corners, bulges) in &sheet.lines {
-        let layer = one_line(layer, &NOT_IN_LAYERS);
+        let layer = named(layer);
         _ = writeln!(
             out,
             "0\nPOLYLINE\n8\n{layer}\n66\n1\n10\n0.0\n20\n0.0\n30\n0.0\n70\n{}",
@@ -68,12 +61,12 @@ pub fn write(sheet: &Sheet) -> Option<String> {
         _ = writeln!(out, "0\nSEQEND\n8\n{layer}");
     }
     for (layer, [x, y], radius) in &sheet.circles {
-        let layer = one_line(layer, &NOT_IN_LAYERS);
+        let layer = named(layer);
         let (x, y, radius) = (length(*x), length(*y), length(*radius));
         _ = writeln!(out, "0\nCIRCLE\n8\n{layer}\n10\n{x}\n20\n{y}\n30\n0.0\n40\n{radius}");
     }
     for (layer, [x, y], height, text) in &sheet.texts {
-        let layer = one_line(layer, &NOT_IN_LAYERS);
+        let layer = named(layer);
         let (x, y, height, text) = (length(*x), length(*y), length(*height), one_line(text, &[]));
         _ = writeln!(
             out,
@@ -82,6 +75,30 @@ pub fn write(sheet: &Sheet) -> Option<String> {
     }
     out += "0\nENDSEC\n0\nEOF\n";
     Some(out)
+}
+
+/// The layers of a drawing, and the name of each in the file. Names there differ by more than the case of letters, and
+/// the layers of ground keep their names to themselves.
+fn layers(sheet: &Sheet) -> (Vec<String>, HashMap<&str, String>) {
+    let lines = sheet.lines.iter().map(|line| &line.0);
+    let circles = sheet.circles.iter().map(|circle| &circle.0);
+    let all = lines.chain(circles).chain(sheet.texts.iter().map(|text| &text.0));
+    let (mut order, mut named) = (Vec::new(), HashMap::new());
+    let mut taken = HashSet::from(["0".to_string(), "ground".to_string()]);
+    for layer in all {
+        if named.contains_key(layer.as_str()) {
+            continue;
+        }
+        let base = one_line(layer, &NOT_IN_LAYERS);
+        let (mut name, mut k) = (base.clone(), 1);
+        while layer != "ground" && !taken.insert(name.to_lowercase()) {
+            k += 1;
+            name = format!("{base}_{k}");
+        }
+        order.push(name.clone());
+        named.insert(layer.as_str(), name);
+    }
+    (order, named)
 }
 
 /// A text on one line, with `_` in place of what it must not contain.

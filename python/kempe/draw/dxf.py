@@ -78,15 +78,22 @@ def write_dxf(
     bore = radius / 3 if hole is None else float(hole) / 2
     sheet = _Sheet()
     _plates(sheet, first, shown["bodies"], "", (radius, bore))
-    for t in times:
+    for t, label in _labels(times).items():
         assert isinstance(drawn, Solution)
-        _plates(sheet, _at(drawn, float(t)), shown["bodies"], f" t {float(t):g} s", (radius, bore))
+        _plates(sheet, _at(drawn, t), shown["bodies"], f" t {label} s", (radius, bore))
     for name in paths:
         x, y = (np.asarray(drawn[f"{name}.{axis}"]) for axis in "xy")
         points = list(zip(x.tolist(), y.tolist(), strict=True))
         sheet.lines.append((f"path {name}", False, points, []))
     files.write_text(path, foreign.dxf_text(UNITS[unit], sheet.lines, sheet.circles, sheet.texts))
     return Path(path)
+
+
+def _labels(times: Sequence[float]) -> dict[float, str]:
+    """Each instant with its digits, which are as few as tell it from the others."""
+    each = dict.fromkeys(float(t) for t in times)
+    few = [f"{t:g}" for t in each]
+    return {t: of if few.count(of) == 1 else repr(t) for t, of in zip(each, few, strict=True)}
 
 
 def _at(solution: Solution, t: float) -> State:
@@ -114,9 +121,8 @@ def _plates(
             placed = [_placed(state, name, corner) for corner in corners]
             sheet.lines.append((layer, True, placed, bulges))
         for point in body["points"]:
-            at = _placed(state, name, point["at"])
-            if name != "ground":  # more digits than those of the scene
-                at = state[f"{name}.{point['name']}.x"], state[f"{name}.{point['name']}.y"]
+            # more digits than those of the scene
+            at = state[f"{name}.{point['name']}.x"], state[f"{name}.{point['name']}.y"]
             sheet.circles.append((layer, at, bore))
             sheet.texts.append((layer, at, bore, point["name"]))
 
