@@ -137,6 +137,48 @@ def test_a_rod_at_rest_on_a_spring(scale: tuple[float, float, float]) -> None:
     agrees(g, "spring.torque", lambda **of: -of["k"] * (angle(**of) - of["free"]), numbers)
 
 
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_numbers_that_are_zero_without_a_unit(size: float) -> None:
+    """The place of a pin: its magnitude follows from the mechanism."""
+    m = kp.Model("rod", gravity=(0, -9.0), parameters={"e": 0.0, "f": 0.0, "L": size})
+    m.ground.points(O=("e", "f"), G=(0.3 * size, 1.1 * size))
+    m.bar("rod", mass=1, length="L", ends=("O", "P"))
+    m.revolute("O", "ground.O", "rod.O")
+    m.spring_damper("s", "ground.G", "rod.P", stiffness=200 / size, free_length=0.3 * size)
+    case = kp.Case(m, {"set": {"rod.angle": 0.3}}, [kp.Equilibrium()])
+    numbers = {"e": 0.0, "f": 0.0, "L": size}
+    g = kp.gradient(case, ["rod.angle", "s.length"], list(numbers), second=True)
+    assert not g.remarks and g.hessian is not None
+
+    def slopes(**of: Any) -> list[Any]:
+        """Those of the potential, divided by its unit, by the angle: zero at rest."""
+        x, y = 0.3 * size - of["e"], 1.1 * size - of["f"]
+
+        def potential(a: Any) -> Any:
+            u, v = of["L"] * mp.cos(a), of["L"] * mp.sin(a)
+            length = mp.sqrt((u - x) ** 2 + (v - y) ** 2)
+            return 100 * (length / size - 0.3) ** 2 * size + 4.5 * v
+
+        angle = mp.findroot(lambda a: mp.diff(potential, a), float(g.measures["rod.angle"]))
+        u, v = of["L"] * mp.cos(angle), of["L"] * mp.sin(angle)
+        return [angle, mp.sqrt((u - x) ** 2 + (v - y) ** 2)]
+
+    step = mpf("1e-6")
+    for k in range(2):
+        for i, j in ((0, 0), (0, 1), (1, 2)):
+            names = list(numbers)
+
+            def at(p: int, q: int, i: int = i, j: int = j, k: int = k) -> Any:
+                moved = {name: mpf(x) for name, x in numbers.items()}
+                moved[names[i]] += p * step * size
+                moved[names[j]] += q * step * size
+                return slopes(**moved)[k]
+
+            with mp.workdps(50):
+                found = float((at(1, 1) - at(1, -1) - at(-1, 1) + at(-1, -1)) / (4 * step**2))
+            assert g.hessian[k, i, j] * size**2 == pytest.approx(found, rel=1e-7)
+
+
 def test_where_there_is_no_second_derivative() -> None:
     m, _ = four_bar((1.0, 1.0, 1.0), a=0.5)
     m.coordinate_driver("motor", "crank.angle", value="a*sin(t)")

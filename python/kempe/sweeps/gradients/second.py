@@ -57,7 +57,7 @@ def hessian_of(
         known: the variables, the values and the slopes there.
     """
     row, values, slopes = known
-    sizes = _sizes(plan, row)
+    sizes = _sizes(plan, known)
     change = np.nanmax(np.abs(slopes) * sizes, axis=1, initial=0.0)
     scales = (np.abs(values) + change)[:, None, None] / (sizes[:, None] * sizes)
     scales = np.maximum(scales, np.finfo(float).tiny)
@@ -75,8 +75,13 @@ def hessian_of(
     return np.where(good, (found + turned) / 2.0, np.nan), told
 
 
-def _sizes(plan: Plan, row: Floats) -> Floats:
-    """The magnitudes of the variables; for zero, the largest one with the same unit, or 1."""
+def _sizes(plan: Plan, known: tuple[Floats, Floats, Floats]) -> Floats:
+    """The magnitudes of the variables.
+
+    For zero, it is the largest one with the same unit; or else the least change that would change a
+    number by its own size, as its slope says; or else 1.
+    """
+    row, values, slopes = known
     given, units = np.abs(row), [plan.unit_of(name) for name in plan.names]
     sizes, state = given.copy(), plan.case.start()
     for k in np.flatnonzero(given == 0.0):
@@ -85,7 +90,9 @@ def _sizes(plan: Plan, row: Floats) -> Floats:
         if units[k] == "m":
             names = state.compiled.bodies
             alike += [abs(float(state[f"{name}.{axis}"])) for name in names for axis in "xy"]
-        sizes[k] = max(alike, default=0.0) or 1.0
+        steep = np.isfinite(values) & (np.nan_to_num(slopes[:, k]) != 0.0)
+        own = np.abs(values[steep] / slopes[steep, k])
+        sizes[k] = max(alike, default=0.0) or min(own[own > 0.0], default=1.0)
     return np.asarray(sizes)
 
 
