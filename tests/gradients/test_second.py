@@ -163,7 +163,7 @@ def test_numbers_that_are_zero_without_a_unit(size: float) -> None:
         u, v = of["L"] * mp.cos(angle), of["L"] * mp.sin(angle)
         return [angle, mp.sqrt((u - x) ** 2 + (v - y) ** 2)]
 
-    step = mpf("1e-6")
+    step, names = mpf("1e-6"), list(numbers)
     for k in range(2):
         for i, j in ((0, 0), (0, 1), (1, 2)):
             names = list(numbers)
