@@ -166,7 +166,6 @@ def test_numbers_that_are_zero_without_a_unit(size: float) -> None:
     step, names = mpf("1e-6"), list(numbers)
     for k in range(2):
         for i, j in ((0, 0), (0, 1), (1, 2)):
-            names = list(numbers)
 
             def at(p: int, q: int, i: int = i, j: int = j, k: int = k) -> Any:
                 moved = {name: mpf(x) for name, x in numbers.items()}
