@@ -158,3 +158,20 @@ def test_the_centripetal_field_of_a_turning_bar() -> None:
     numbers = [float(word) for word in row.split(",")[2:]]
     assert numbers[5:] == pytest.approx([-25.0, 0.0, 0.0, 100.0], abs=1e-10)
     assert quad(lambda s: 4.0 * 100 * s, 0, 0.5)[0] == pytest.approx(50.0)
+
+
+def test_load_cases_whose_names_are_alike_have_files_of_their_own(tmp_path: Path) -> None:
+    m = kp.Model("chain", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    end = "ground.O"
+    for body, joint in (("a b", "A"), ("a_b", "A_x"), ("A_b", "a")):
+        m.bar(body, mass=1, length=1, ends=("P", "Q"))
+        m.revolute(joint, end, f"{body}.P")
+        end = f"{body}.Q"
+    start = kp.assemble(m, {f"{body}.angle": 0.3 for body in ("a b", "a_b", "A_b")})
+    found = kp.dynamics(m, start, t_end=0.2, output_step=0.01)
+    cases = [case for body in found.compiled.bodies for case in design.load_cases(found, body)]
+    paths = design.export_load_cases(found, tmp_path)
+    assert len({str(path).lower() for path in paths}) == len(paths) == len(cases) == 25
+    for case, path in zip(cases, paths, strict=True):
+        assert path.read_text().startswith(f"# loads on {case.body}, case {case.name}, at t")

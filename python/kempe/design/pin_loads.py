@@ -218,17 +218,24 @@ def export_load_cases(
         ModelError: there is no such body, or a load case is not in balance.
         FileError: a file cannot be written.
     """
-    into = files.checked_path(folder, "write")
-    return [_written(into, case) for case in _all_cases(solution, bodies)]
+    into, taken = files.checked_path(folder, "write"), set[Path]()
+    return [_written(into, case, taken) for case in _all_cases(solution, bodies)]
 
 
 def _all_cases(solution: Solution, bodies: list[str] | None) -> Iterator[FreeBody]:
-    for body in solution.compiled.bodies if bodies is None else bodies:
+    for body in solution.compiled.bodies if bodies is None else dict.fromkeys(bodies):
         yield from load_cases(solution, body)
 
 
-def _written(into: Path, case: FreeBody) -> Path:
-    path = into / _plain(case.body) / f"{_plain(case.name)}.csv"
+def _written(into: Path, case: FreeBody, taken: set[Path]) -> Path:
+    """Write a file whose name is like those of the case, and not that of another case."""
+    folder, name, k = into / _plain(case.body), _plain(case.name), 1
+    path = folder / f"{name}.csv"
+    # some systems do not distinguish upper and lower case
+    while (plain := Path(str(path).lower())) in taken:
+        k += 1
+        path = folder / f"{name}_{k}.csv"
+    taken.add(plain)
     case.to_csv(path)
     return path
 
