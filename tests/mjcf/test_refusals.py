@@ -9,6 +9,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from command_line import kempe
+from kempe.mjcf.attributes import Names
 from sizes import count
 
 HEAD = '<mujoco>\n<option gravity="0 0 -9.81"/>\n<worldbody>\n<body name="rod" pos="0 0 1">\n'
@@ -181,3 +182,11 @@ def test_many_points_of_a_body_are_read_quickly(tmp_path: Path) -> None:
     points = kp.load(tmp_path / "a.xml").model.tree()["bodies"]["rod"]["points"]
     assert time.perf_counter() - began < 5
     assert len(points) == 10_000 + 1  # and that of the pin
+
+
+def test_many_equal_names_are_told_apart_quickly() -> None:
+    names, began = Names(), time.perf_counter()
+    found = [names.new("a") for _ in range(30_000)]
+    assert time.perf_counter() - began < 2
+    assert len(set(found)) == 30_000 and found[:3] == ["a", "a_2", "a_3"]
+    assert [names.new(name) for name in ("a_3", "a_3")] == ["a_3_2", "a_3_3"]

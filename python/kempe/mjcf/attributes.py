@@ -100,14 +100,16 @@ class Names:
 
     def __init__(self) -> None:
         self.used = {"ground", "energy", "drift", "t"}
+        self.last: dict[str, int] = {}
 
     def new(self, wanted: str) -> str:
         """A name like the wanted one."""
         name = re.sub(r"\W", "_", wanted, flags=re.ASCII) or "part"
         name = f"_{name}" if name[0].isdigit() else name
         name = f"{name}_" if _core.is_reserved(name) else name
-        base, k = name, 2
+        base = name
         while name in self.used:
-            name, k = f"{base}_{k}", k + 1
+            self.last[base] = self.last.get(base, 1) + 1
+            name = f"{base}_{self.last[base]}"
         self.used.add(name)
         return name
