@@ -60,7 +60,8 @@ pub(super) fn unknown(all: &[Statement]) -> Vec<(usize, String)> {
         }
         let joint = matches!(*kind, "JOINT" | "JPRIM");
         for (k, word) in one.words.iter().enumerate() {
-            if !words.contains(&word.as_str()) && !(joint && k == 0) {
+            let known = words.contains(&word.as_str()) || joint && k == 0;
+            if !known {
                 tell(format!("{} is not supported", short(word)));
             }
         }

@@ -106,7 +106,8 @@ pub(super) fn read<'a>(text: &'a str, unread: &mut UnreadList) -> (Vec<Pair<'a>>
             _ => {}
         }
     }
-    if !ended && !(header.is_empty() && entities.is_empty()) {
+    let empty = header.is_empty() && entities.is_empty();
+    if !(ended || empty) {
         unread.lost(0, "the file has no end, EOF; a part of the drawing may be missing");
     }
     (header, entities)

@@ -133,8 +133,8 @@ fn take(
     };
     match entity.kind {
         kind if entity.flag(67, 1) => {
-            let kind: String = kind.chars().take(40).collect();
-            unread.left(entity.line, format!("{kind} on layer {}: on a sheet", layer.name));
+            unread
+                .left(entity.line, format!("{} on layer {}: on a sheet", short(kind), layer.name));
         }
         "POLYLINE" if entity.flag(70, MESH) => {
             unread.left(entity.line, format!("mesh on layer {}: not a line", layer.name));
@@ -149,21 +149,21 @@ fn take(
                 "POLYLINE" => vertices(entities, side, unit)?,
                 _ => light(entity, side, unit)?,
             };
-            if line.len() < 2 || line.len() == 2 && line.iter().all(|corner| corner.bulge == 0.0) {
-                unread.left(entity.line, "a closed line without an area is left out");
-            } else {
+            if encloses(&line) {
                 layer.outlines.push(line);
+            } else {
+                unread.left(entity.line, "a closed line without an area is left out");
             }
         }
         "INSERT" => {
-            let name: String = entity.text(2).unwrap_or_default().chars().take(40).collect();
+            let name = short(entity.text(2).unwrap_or_default());
             unread.lost(entity.line, format!("INSERT: the block {name} is not read; explode it"));
         }
         "VERTEX" | "SEQEND" => {
             unread.lost(entity.line, format!("{} without a POLYLINE", entity.kind))
         }
         other => {
-            let kind: String = other.chars().take(40).collect();
+            let kind = short(other);
             let kind = if kind.ends_with("POLYLINE") { "open polyline".into() } else { kind };
             unread.left(
                 entity.line,
@@ -172,6 +172,16 @@ fn take(
         }
     }
     Ok(())
+}
+
+/// Whether a closed line may have an area.
+fn encloses(line: &[Corner]) -> bool {
+    line.len() > 2 || line.len() == 2 && line.iter().any(|corner| corner.bulge != 0.0)
+}
+
+/// The beginning of a text, for messages.
+fn short(text: &str) -> String {
+    text.chars().take(40).collect()
 }
 
 /// The corners of a `POLYLINE`.
