@@ -133,8 +133,8 @@ fn take(
     };
     match entity.kind {
         kind if entity.flag(67, 1) => {
-            unread
-                .left(entity.line, format!("{} on layer {}: on a sheet", short(kind), layer.name));
+            let what = format!("{} on layer {}: on a sheet", short(kind), layer.name);
+            unread.left(entity.line, what);
         }
         "POLYLINE" if entity.flag(70, MESH) => {
             unread.left(entity.line, format!("mesh on layer {}: not a line", layer.name));
@@ -165,10 +165,8 @@ fn take(
         other => {
             let kind = short(other);
             let kind = if kind.ends_with("POLYLINE") { "open polyline".into() } else { kind };
-            unread.left(
-                entity.line,
-                format!("{kind} on layer {}: not a closed polyline, circle or point", layer.name),
-            );
+            let why = "not a closed polyline, circle or point";
+            unread.left(entity.line, format!("{kind} on layer {}: {why}", layer.name));
         }
     }
     Ok(())
