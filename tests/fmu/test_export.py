@@ -68,14 +68,15 @@ def test_the_description_has_the_variables(tmp_path: Path, version: str) -> None
 
 
 def test_formulas_of_parameters_are_no_parameters_of_the_fmu(tmp_path: Path) -> None:
-    m = kp.Model("rod", gravity=(0, -9.81), parameters={"L": 1, "M": "2*L"})
+    numbers = {"L": 1, "M": "2*L", "m": 3, "W": "2 m"}  # the unit of W is no parameter
+    m = kp.Model("rod", gravity=(0, -9.81), parameters=numbers)
     m.ground.points(A=(0, 0))
     m.bar("rod", mass="M", length="L", ends=("A", "B"))
     m.revolute("A", "ground.A", "rod.A")
     kp.export_fmu(kp.Case(m, {"set": {"rod.angle": 0}}), tmp_path / "rod.fmu")
     names = [v.name for v in read_model_description(str(tmp_path / "rod.fmu")).modelVariables]
     coordinates = [f"rod.{part}" for part in ("x", "y", "angle", "vx", "vy", "omega")]
-    assert names == ["time", *coordinates, "L"]
+    assert names == ["time", *coordinates, "L", "m", "W"]
 
 
 def test_the_same_case_gives_the_same_file(tmp_path: Path) -> None:

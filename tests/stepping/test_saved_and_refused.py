@@ -183,6 +183,18 @@ def test_a_state_of_another_mechanism_is_refused() -> None:
         stepper.restore(1.0)  # type: ignore[arg-type]
 
 
+def test_a_start_of_other_lengths_is_refused_by_reset() -> None:
+    stepper, other = kp.Stepper(pendulum()), pendulum(L=2).start()
+    stepper.step(0.1)
+    before = stepper.state.q.tobytes()
+    with pytest.raises(kp.AssemblyError, match="is open by"):
+        stepper.reset(other)
+    assert (stepper.t, stepper.state.q.tobytes()) == (0.1, before)
+    stepper.step(0.1)
+    stepper.reset()
+    assert stepper.t == 0.0
+
+
 def test_a_step_inside_an_action_is_refused() -> None:
     def again(_: kp.State) -> None:
         stepper.step(0.1)

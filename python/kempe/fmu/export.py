@@ -18,7 +18,7 @@ from kempe.base import files
 from kempe.base.arguments import explained
 from kempe.base.names import one_of
 from kempe.case import Case
-from kempe.errors import FileError, ModelError
+from kempe.errors import FileError, KempeError, ModelError
 from kempe.fmu.description import TIME, Description, Variable
 from kempe.fmu.library import ending, folder, library, licences
 from kempe.model.compiled import CompiledModel
@@ -209,8 +209,13 @@ def _is_number(model: CompiledModel, name: str) -> bool:
     """Whether a parameter is a number with or without a unit, not a formula of others."""
     value = model.tree["parameters"][name]
     others = (other for other in model.parameters if other != name)
-    words = set(re.findall(r"\w+", value)) if isinstance(value, str) else set()
-    return words.isdisjoint(others)
+    if not isinstance(value, str) or set(re.findall(r"\w+", value)).isdisjoint(others):
+        return True
+    try:  # a unit may have the name of a parameter
+        _core.formula_value(value, [], [])
+    except KempeError:
+        return False
+    return True
 
 
 def _experiment(entry: Mapping[str, Any], start: float) -> dict[str, float]:

@@ -158,6 +158,11 @@ impl PhasedRun {
         named(&self.events)
     }
 
+    /// The model of the next phase.
+    pub fn model<'a>(&'a self, base: &'a Model) -> &'a Model {
+        self.own.as_ref().map_or(base, |own| &own.model)
+    }
+
     /// The setting of the next phase.
     pub fn setting(&self) -> &Setting {
         &self.setting
@@ -241,7 +246,7 @@ impl PhasedRun {
     /// Builds the model of the next phase and checks that the state meets its constraints.
     fn change_model(&mut self, base: &Model, options: &Options) -> Result<(), Box<Failure>> {
         self.own = Own::of(base, &self.setting, self.at.t)?;
-        let model = self.own.as_ref().map_or(base, |own| &own.model);
+        let model = self.model(base);
         let [q, v, z, _] = model.layout.split(&self.at.y);
         let check = StartCheck::of_change(options);
         // a force that begins to hold has a small speed, which the projection at the start of the phase removes
@@ -251,7 +256,7 @@ impl PhasedRun {
     }
 
     fn read_conditions(&mut self, base: &Model) -> Result<(), Box<Failure>> {
-        let model = self.own.as_ref().map_or(base, |own| &own.model);
+        let model = self.model(base);
         self.conditions = Arc::new(conditions(model, &self.setting, &self.events)?);
         Ok(())
     }

@@ -8,10 +8,12 @@
 use super::course::{Act, Change, PhasedRun};
 use super::failure::{Failure, Reason};
 use super::model_cache::ModelCache;
+use super::modes;
 use super::options::Options;
 use super::prepared::Prepared;
 use super::run_results::Run;
 use super::setting::Setting;
+use super::start_check::StartCheck;
 use crate::analyses::{second_order, State};
 use crate::integrate::Flow;
 use crate::model::Model;
@@ -110,6 +112,11 @@ impl<M: Deref<Target = Model>> SteppedRun<M> {
         let base = own.as_ref().map_or_else(|| &**prepared.model(), |own| &own.0);
         let mut last = Run::default();
         let course = PhasedRun::begin(base, start, &options, &mut last)?;
+        if !modes::has_modes(base) {
+            // otherwise the modes have been decided for a state that was checked
+            let parts = [&start.q[..], &start.v, &start.z];
+            StartCheck::of_run(&options).check(course.model(base), t, parts)?;
+        }
         let now = SavedRun { course, grid: (t, 0.0, 0), largest_energy: 0.0, stopped_by: None };
         Ok(Self { prepared, own, options, first_step, now, last })
     }
