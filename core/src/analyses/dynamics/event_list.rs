@@ -45,6 +45,18 @@ pub(super) struct Watched<'a> {
     pub listed: bool,
 }
 
+impl Watched<'_> {
+    /// Whether a condition has another sign at the start of a phase than at the end of the one before, by more than
+    /// rounding errors.
+    fn jumps(&self, earlier: Option<&f64>, now: f64) -> bool {
+        let opposite = |before: &f64| {
+            let other = *before > 0.0 && now < 0.0 || *before < 0.0 && now > 0.0;
+            other && now.abs() > NEAR * before.abs()
+        };
+        matches!(self.function, EventFunction::Condition(_)) && earlier.is_some_and(opposite)
+    }
+}
+
 /// The events in a step, and how the phase continues.
 pub(super) enum StepEvents {
     /// These events occur in the step, and the phase continues.
@@ -70,7 +82,7 @@ struct InStep<'l, 'a> {
 
 impl Watch for InStep<'_, '_> {
     fn values(&mut self, t: f64, y: &[f64], some: &[usize], out: &mut [f64]) {
-        let EventList { watched, evaluator, began, zero, sampled, before, at_end, .. } =
+        let EventList { watched, evaluator, began, earlier, zero, sampled, before, at_end, .. } =
             &mut *self.list;
         let solves = some.iter().any(|index| watched[*index].function.needs_solution());
         evaluator.see(self.model, (t, y), (self.step, solves), |seen| {
@@ -86,6 +98,8 @@ impl Watch for InStep<'_, '_> {
             }
             if t == began.0 && began.1.contains(index) {
                 *out = 0.0;
+            } else if t == began.0 && event.jumps(earlier.get(*index), *out) {
+                *out = earlier[*index];
             }
             if jumps {
                 *out = before[*index];
@@ -135,6 +149,8 @@ pub(super) struct EventList<'a> {
     evaluator: Evaluator,
     /// The events at which the phase began, and the time of the start. They do not occur again there.
     began: (f64, Vec<usize>),
+    /// The values of the functions at the end of the phase before. Where a condition jumps, it has an event.
+    earlier: Vec<f64>,
     /// The largest values that count as zero: rounding errors of functions that are zero at the start of the phase.
     zero: Option<Vec<f64>>,
     /// The event at which a step is to end: its time and index.
@@ -150,13 +166,13 @@ pub(super) struct EventList<'a> {
 
 impl<'a> EventList<'a> {
     /// The events of a phase that begins at `t`. `fired` are the events that ended the previous phase; `so_far` is
-    /// the run up to `t`. Returns None if there are no events.
+    /// the run up to `t`, with the values of the functions there. Returns None if there are no events.
     pub fn new(
         ode: &MotionOde<'_>,
         watched: Vec<Watched<'a>>,
         t: f64,
         fired: &[usize],
-        mut so_far: SoFar,
+        (mut so_far, earlier): (SoFar, Vec<f64>),
     ) -> Option<Self> {
         if watched.is_empty() {
             return None;
@@ -175,6 +191,7 @@ impl<'a> EventList<'a> {
             watched,
             evaluator,
             began,
+            earlier,
             zero,
             awaited,
             tries,
@@ -185,9 +202,9 @@ impl<'a> EventList<'a> {
         })
     }
 
-    /// The run up to the last accepted step.
-    pub fn so_far(self) -> SoFar {
-        self.evaluator.so_far
+    /// The run up to the last accepted step, and the values of the functions there.
+    pub fn so_far(self) -> (SoFar, Vec<f64>) {
+        (self.evaluator.so_far, self.before)
     }
 
     /// Whether an event is listed where its function changes sign.
@@ -245,6 +262,11 @@ impl<'a> EventList<'a> {
         }
         (self.awaited, self.tries) = (None, 0);
         self.evaluator.advance(model, step);
+        let how = (step, self.watched.iter().any(|event| event.function.needs_solution()));
+        let Self { watched, evaluator, before, .. } = self;
+        *before = evaluator.see(model, (step.t, step.y), how, |seen| {
+            watched.iter().map(|event| event.function.value(model, seen)).list()
+        });
         let mut found: Vec<Crossing> = found;
         if found.iter().all(|crossing| crossing.index != index) {
             let rising = self.watched[index].direction != Direction::Falling;

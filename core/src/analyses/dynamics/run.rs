@@ -36,6 +36,9 @@ pub(super) struct Progress {
     pub fired: Vec<usize>,
     /// The course of the run, which conditions may use.
     pub so_far: SoFar,
+    /// The values of the conditions of events at the end of the last phase.
+    #[serde(default)]
+    conditions: Vec<f64>,
     /// Whether a phase has begun.
     begun: bool,
     /// How the steps of the last phase continue.
@@ -177,7 +180,7 @@ pub(super) fn begin_phase<'a>(
         Err(breakdown) => Err(Failure::at_state(model, at.t, &q, breakdown)),
         Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(None),
         Ok(()) => {
-            let so_far = std::mem::take(&mut at.so_far);
+            let so_far = (std::mem::take(&mut at.so_far), std::mem::take(&mut at.conditions));
             let events = EventList::new(&ode, watched, at.t, &at.fired, so_far);
             PhaseSteps::new(ode, events, at, options, schedule).map(Some)
         }
@@ -315,7 +318,7 @@ impl<'a> PhaseSteps<'a> {
         at.y.copy_from_slice(self.stepper.y());
         at.jumped = self.laws.jump(&mut self.stepper.ode, at.t, &at.y);
         at.fired = self.fired;
-        at.so_far = self.events.map(EventList::so_far).unwrap_or_default();
+        (at.so_far, at.conditions) = self.events.map(EventList::so_far).unwrap_or_default();
     }
 }
 
