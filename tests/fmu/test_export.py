@@ -68,7 +68,7 @@ def test_the_description_has_the_variables(tmp_path: Path, version: str) -> None
 
 
 def test_formulas_of_parameters_are_no_parameters_of_the_fmu(tmp_path: Path) -> None:
-    numbers = {"L": 1, "M": "2*L", "m": 3, "W": "2 m"}  # the unit of W is no parameter
+    numbers = {"L": 1, "M": "2*L", "m": 3, "W": "2 m"}  # m is also the unit of W
     m = kp.Model("rod", gravity=(0, -9.81), parameters=numbers)
     m.ground.points(A=(0, 0))
     m.bar("rod", mass="M", length="L", ends=("A", "B"))

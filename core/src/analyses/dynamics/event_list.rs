@@ -262,11 +262,7 @@ impl<'a> EventList<'a> {
         }
         (self.awaited, self.tries) = (None, 0);
         self.evaluator.advance(model, step);
-        let how = (step, self.watched.iter().any(|event| event.function.needs_solution()));
-        let Self { watched, evaluator, before, .. } = self;
-        *before = evaluator.see(model, (step.t, step.y), how, |seen| {
-            watched.iter().map(|event| event.function.value(model, seen)).list()
-        });
+        self.note_end(model, step);
         let mut found: Vec<Crossing> = found;
         if found.iter().all(|crossing| crossing.index != index) {
             let rising = self.watched[index].direction != Direction::Falling;
@@ -282,6 +278,15 @@ impl<'a> EventList<'a> {
         let sign = (step.t - step.t_old).signum();
         found.order_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)).then(a.index.cmp(&b.index)));
         Ok(StepEvents::End(found))
+    }
+
+    /// Keeps the values of the functions at the end of a phase.
+    fn note_end(&mut self, model: &Model, step: &Step<'_>) {
+        let how = (step, self.watched.iter().any(|event| event.function.needs_solution()));
+        let Self { watched, evaluator, before, .. } = self;
+        *before = evaluator.see(model, (step.t, step.y), how, |seen| {
+            watched.iter().map(|event| event.function.value(model, seen)).list()
+        });
     }
 
     /// Other conditions that change at the end of a step up to rounding errors, or not later than the one that ends
