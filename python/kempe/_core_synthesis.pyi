@@ -12,6 +12,10 @@ _Limits = tuple[bool, float | None, str | None, list[list[float]] | None, int]
 #: angles over a turn and at the positions, defects, angles of the crank.
 RankedLinkage = tuple[int, bool, bool, bool, float, float, list[str], list[float]]
 
+#: (o, a, b, d) of four-bars and the coupler point at all positions, the angles of the moving frame
+#: at the first position, errors.
+Traces = tuple[_F, list[float], list[float]]
+
 def dyad_conditions(places: list[_Place], angles: list[float]) -> _Dyads:
     """The conditions of poses on (1, w, g, u, v), one for each pose after the first."""
 
@@ -39,7 +43,7 @@ def pairs_of_dyads(first: int, second: int | None, seed: int) -> list[tuple[int,
 def four_bars(
     places: list[_Place],
     angles: list[float],
-    pivots: tuple[_Place | None, _Place | None],
+    pivots: tuple[_Place | None, ...],
     samples: int,
     seed: int,
 ) -> tuple[_F, list[float], bool]:
@@ -58,15 +62,23 @@ def ranked_linkages(
     ``linkages`` has (o, a, b, end) of each in a row, the end of a slide being its direction.
     """
 
-def fit_coupler(
-    targets: list[list[float]],
-    weights: tuple[float, float],
-    linkage: list[float],
-    positions: list[list[float]],
-    free: list[bool],
-    steps: int,
-) -> tuple[list[float], list[list[float]], float]:
-    """A four-bar near a start whose coupler fits points: linkage, positions, sum of squares."""
+def path_four_bars(
+    places: list[_Place],
+    cranks: list[float],
+    offset: bool,
+    pivots: tuple[_Place | None, ...],
+    starts: int | None,
+    seed: int,
+) -> tuple[Traces, bool]:
+    """Four-bars whose coupler point passes points, and whether these are all.
+
+    ``cranks`` are angles of the crank or none, ``offset`` says whether their origin is free.
+    """
+
+def near_poses(
+    places: list[_Place], angles: list[float], pivots: tuple[_Place | None, ...], linkages: _F
+) -> Traces:
+    """The four-bars near given ones whose coupler fits poses best; a row has (o, a, b, d)."""
 
 def fit_pairs(
     targets: list[list[float]],
@@ -76,4 +88,4 @@ def fit_pairs(
     free: list[bool],
     steps: int,
 ) -> tuple[list[float], list[list[float]], float]:
-    """A four-bar near a start whose rocker fits pairs of angles, as ``fit_coupler``."""
+    """A four-bar near a start whose rocker fits pairs: linkage, positions, sum of squares."""

@@ -1,13 +1,12 @@
 //! A four-bar of a task with names for its points, at the first position.
 
 use super::defects::{Linkage, Output};
-use super::motion::Poses;
 use super::plane::{abs, turn};
 use super::ranked::Ranked;
 use kempe::math::Complex;
 use std::f64::consts::TAU;
 
-/// A four-bar at the first pose of its task.
+/// A four-bar at the first position of its task.
 #[derive(Clone, Copy, Debug)]
 pub struct FourBar {
     /// O, A, B, D and P: pivot and pin of the crank, pin and pivot of the rocker, and the origin of the moving frame.
@@ -20,16 +19,15 @@ impl FourBar {
     /// Outputs of its motion.
     pub const OUTPUTS: f64 = 180.0;
 
-    /// The four-bar of a candidate.
-    pub fn of(linkage: &Linkage, ranked: &Ranked, task: &Poses) -> Self {
+    /// The four-bar of a candidate, with the place and the angle of its moving frame at the first position.
+    pub fn of(linkage: &Linkage, ranked: &Ranked, (p, frame): (Complex, f64)) -> Self {
         let (o, a, b) = (linkage.o, linkage.a[0], linkage.b[0]);
         let d = match linkage.output {
             Output::Rocker(d) => d,
             Output::Slide(_) => b,
         };
-        let p = task.places[0];
         let pins = if ranked.reversed { [d, b, a, o, p] } else { [o, a, b, d, p] };
-        Self { pins, frame: task.angles[0] }
+        Self { pins, frame }
     }
 
     /// A, B and P in the moving frame.

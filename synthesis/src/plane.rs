@@ -2,9 +2,9 @@
 
 use kempe::math::Complex;
 
-/// The distance from zero.
+/// The distance from zero; other than `hypot`, it has the same digits on every machine.
 pub fn abs(z: Complex) -> f64 {
-    z.re.hypot(z.im)
+    (z.re * z.re + z.im * z.im).sqrt()
 }
 
 /// The direction, rad.
@@ -31,4 +31,19 @@ pub fn turn(angle: f64) -> Complex {
 /// A multiple.
 pub fn scaled(z: Complex, factor: f64) -> Complex {
     Complex::new(z.re * factor, z.im * factor)
+}
+
+/// The direction of a number.
+pub fn unit(z: Complex) -> Complex {
+    scaled(z, 1.0 / abs(z).max(f64::MIN_POSITIVE))
+}
+
+/// The direction of a coupler between its pin and the pivot of the rocker, on the side of a sign; as near as possible to
+/// closing if it cannot close.
+pub fn closed(far: Complex, [bar, rocker]: [f64; 2], side: f64) -> Complex {
+    let length = abs(far).max(f64::MIN_POSITIVE);
+    let cosine = (bar * bar + length * length - rocker * rocker) / (2.0 * bar * length);
+    let cosine = cosine.clamp(-1.0, 1.0);
+    let sine = (1.0 - cosine * cosine).sqrt().copysign(side);
+    unit(far) * Complex::new(cosine, sine)
 }

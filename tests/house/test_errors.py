@@ -72,7 +72,10 @@ CALLS: dict[str, Callable[[], object]] = {
     "ranked_linkages": lambda: _core.ranked_linkages(
         np.zeros((0, 8)), [], False, (False, None, None, None, 0), False, False
     ),
-    "fit_coupler": lambda: _core.fit_coupler([], (1.0, 1.0), [], [], [], 1),
+    "path_four_bars": lambda: _core.path_four_bars(
+        [(0.0, 0.0), (1.0, 0.0)], [], True, (None, None), 1, 0
+    ),
+    "near_poses": lambda: _core.near_poses([(0.0, 0.0)], [0.0], (None, None), np.zeros((0, 8))),
     "fit_pairs": lambda: _core.fit_pairs([], 1.0, [], [], [], 1),
     "Record.number": lambda: RECORD.number("count"),
     "Run.responses": RUN.responses,

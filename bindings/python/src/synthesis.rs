@@ -4,8 +4,8 @@ use crate::errors::{Failure, Kind};
 use crate::guard::guard;
 use kempe::math::Complex;
 use kempe_synthesis::{
-    conditions, least_squares, ranked, with_end, Choices, Coupler, Dyad, End, Fitted, Grashof,
-    Judged, Limits, Linkage, Output, Pairs, Poses, Problem, Ranked, Refused, TYPES,
+    conditions, least_squares, ranked, with_end, Choices, Dyad, End, Fitted, Grashof, Judged,
+    Limits, Linkage, Output, Pairs, PathSearch, Poses, Ranked, Refused, Traced, Wanted, TYPES,
 };
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -85,13 +85,8 @@ pub fn four_bars(
         let (places, pivots) = (complexes(&places), pivots.map(|at| at.map(complex)));
         let task = Poses { places, angles, pivots, samples, seed };
         let (linkages, complete) = found(kempe_synthesis::four_bars(&task))?;
-        let mut flat = Vec::new();
-        for (one, _) in &linkages {
-            let Output::Rocker(d) = one.output else { continue };
-            let all = [one.o].into_iter().chain(one.a.iter().copied());
-            let all = all.chain(one.b.iter().copied()).chain([d]);
-            flat.extend(all.flat_map(|z| [z.re, z.im]));
-        }
+        let places = linkages.iter().flat_map(|(one, _)| numbers(one));
+        let flat: Vec<f64> = places.flat_map(|z| [z.re, z.im]).collect();
         let errors = linkages.iter().map(|(_, error)| *error).collect();
         Ok((flat.into_pyarray(py).unbind(), errors, complete))
     })
@@ -132,14 +127,7 @@ pub fn ranked_linkages(
         if rows.nrows() != errors.len() || width < 4 || width % 2 != 0 {
             return Err(PyValueError::new_err("o, a, b, end and an error of each linkage"));
         }
-        let of = |row: usize| {
-            let at = |k: usize| Complex::new(rows[[row, 2 * k]], rows[[row, 2 * k + 1]]);
-            let middle = width / 2;
-            let end = at(width - 1);
-            let output = if slides { Output::Slide(end) } else { Output::Rocker(end) };
-            let (a, b) = ((1..middle).map(at).collect(), (middle..width - 1).map(at).collect());
-            Linkage { o: at(0), a, b, output }
-        };
+        let of = |row: usize| linkage(&rows.row(row).to_vec(), slides);
         let all: Vec<_> = errors.iter().enumerate().map(|(k, error)| (of(k), *error)).collect();
         let (kept, excluded) = ranked(&all, &limits, either, complete);
         Ok((kept.into_iter().map(candidate).collect(), excluded))
@@ -179,21 +167,93 @@ fn found<T>(of: Result<T, Refused>) -> PyResult<T> {
     })
 }
 
-/// A four-bar near a start whose coupler fits points, poses or crank angles.
+/// Four-bars as (o, a, b, d) and the coupler point at all positions as pairs of numbers, the angles of the moving frame
+/// at the first position, and the errors.
+type Traces = (Py<PyArray1<f64>>, Vec<f64>, Vec<f64>);
+
+/// Four-bars whose coupler point passes points, and whether these are all.
+///
+/// `cranks` are angles of the crank or none, `offset` says whether their origin is free.
 #[pyfunction]
-#[pyo3(signature = (targets, weights, linkage, positions, free, steps))]
-pub fn fit_coupler(
-    targets: Vec<[f64; 4]>,
-    weights: [f64; 2],
-    linkage: Vec<f64>,
-    positions: Vec<[f64; 2]>,
-    free: Vec<bool>,
-    steps: usize,
-) -> PyResult<Found> {
-    guard("fit_coupler", || {
-        let problem = Coupler { targets, weights };
-        Ok(fitted(&problem, linkage, positions, &free, steps))
+#[pyo3(signature = (places, cranks, offset, pivots, starts, seed))]
+pub fn path_four_bars(
+    py: Python<'_>,
+    places: Vec<[f64; 2]>,
+    cranks: Vec<f64>,
+    offset: bool,
+    pivots: [Option<[f64; 2]>; 2],
+    starts: Option<usize>,
+    seed: u64,
+) -> PyResult<(Traces, bool)> {
+    guard("path_four_bars", || {
+        if !cranks.is_empty() && cranks.len() != places.len() {
+            return Err(PyValueError::new_err("a crank angle for each of the places, or none"));
+        }
+        let (places, pivots) = (complexes(&places), pivots.map(|at| at.map(complex)));
+        let wanted = Wanted { places, cranks, offset, pivots, ..Wanted::default() };
+        let mut search = found(PathSearch::new(wanted, starts, seed))?;
+        while !search.ended() {
+            py.check_signals()?;
+            found(search.advance(1))?;
+        }
+        let all = search.found();
+        found(if all.is_empty() { Err(search.none()) } else { Ok(()) })?;
+        Ok((traces(py, &all), search.complete()))
     })
+}
+
+/// The four-bars near given ones whose coupler fits poses best. `linkages` has (o, a, b, d) of each.
+#[pyfunction]
+#[pyo3(signature = (places, angles, pivots, linkages))]
+pub fn near_poses(
+    py: Python<'_>,
+    places: Vec<[f64; 2]>,
+    angles: Vec<f64>,
+    pivots: [Option<[f64; 2]>; 2],
+    linkages: PyReadonlyArray2<'_, f64>,
+) -> PyResult<Traces> {
+    guard("near_poses", || {
+        let rows = linkages.as_array();
+        let width = rows.ncols() / 2;
+        if places.is_empty() || places.len() != angles.len() || width != 2 * places.len() + 2 {
+            return Err(PyValueError::new_err(
+                "an angle of each place; o, a, b and d of a linkage",
+            ));
+        }
+        let (points, pivots) = (complexes(&places), pivots.map(|at| at.map(complex)));
+        let frame = angles[0];
+        let wanted = Wanted { places: points.clone(), frames: angles, pivots, ..Wanted::default() };
+        let starts: Vec<Traced> = (0..rows.nrows())
+            .map(|row| Traced {
+                linkage: linkage(&rows.row(row).to_vec(), false),
+                points: points.clone(),
+                frame,
+                error: 0.0,
+            })
+            .collect();
+        Ok(traces(py, &wanted.best(&starts)))
+    })
+}
+
+/// A linkage of (o, a, b, end) as pairs of numbers.
+fn linkage(row: &[f64], slides: bool) -> Linkage {
+    let at: Vec<Complex> = row.chunks_exact(2).map(|z| Complex::new(z[0], z[1])).collect();
+    let (middle, last) = (at.len() / 2, at.len() - 1);
+    let output = if slides { Output::Slide(at[last]) } else { Output::Rocker(at[last]) };
+    Linkage { o: at[0], a: at[1..middle].to_vec(), b: at[middle..last].to_vec(), output }
+}
+
+fn numbers(of: &Linkage) -> impl Iterator<Item = Complex> + '_ {
+    let (Output::Rocker(end) | Output::Slide(end)) = of.output;
+    let pins = of.a.iter().chain(&of.b).copied();
+    [of.o].into_iter().chain(pins).chain([end])
+}
+
+fn traces(py: Python<'_>, all: &[Traced]) -> Traces {
+    let places = all.iter().flat_map(|one| numbers(&one.linkage).chain(one.points.iter().copied()));
+    let flat: Vec<f64> = places.flat_map(|z| [z.re, z.im]).collect();
+    let frames = all.iter().map(|one| one.frame).collect();
+    (flat.into_pyarray(py).unbind(), frames, all.iter().map(|one| one.error).collect())
 }
 
 /// A four-bar near a start whose rocker fits pairs of angles.
@@ -209,18 +269,8 @@ pub fn fit_pairs(
 ) -> PyResult<Found> {
     guard("fit_pairs", || {
         let problem = Pairs { targets, closing };
-        Ok(fitted(&problem, linkage, positions, &free, steps))
+        let start = Fitted { linkage, positions, sum: f64::INFINITY };
+        let found = least_squares(&problem, start, &free, steps);
+        Ok((found.linkage, found.positions, found.sum))
     })
-}
-
-fn fitted<P: Problem>(
-    problem: &P,
-    linkage: Vec<f64>,
-    positions: Vec<[f64; 2]>,
-    free: &[bool],
-    steps: usize,
-) -> Found {
-    let start = Fitted { linkage, positions, sum: f64::INFINITY };
-    let found = least_squares(problem, start, free, steps);
-    (found.linkage, found.positions, found.sum)
 }

@@ -16,7 +16,7 @@ use crate::optimize::Search;
 use crate::pose::pose;
 use crate::readiness::readiness;
 use crate::run::Ran;
-use crate::synthesis::Task;
+use crate::synthesis::{Task, Tracing};
 use kempe::analyses::assemble::{self, Request};
 use kempe::analyses::readings;
 use kempe::analyses::record::Outcome;
@@ -33,6 +33,7 @@ pub struct Session {
     live: Option<Live>,
     ran: Option<Ran>,
     search: Option<Search>,
+    tracing: Option<Tracing>,
     numbers: Vec<f64>,
 }
 
@@ -97,8 +98,14 @@ impl Session {
                 let (name, given) = (fields.text("question")?, fields.text("given")?);
                 self.exercise(fields)?.checked(name, given)
             }
-            "synthesis" => Ok(self.task()?.described()),
-            "candidate" => self.task()?.solved()?.taken(fields.number("choice")? as usize),
+            "synthesis" => {
+                let starts = fields.get("starts").map_or(Ok(0.0), |_| fields.number("starts"))?;
+                Ok(self.task()?.described(&mut self.tracing, starts as usize))
+            }
+            "candidate" => {
+                let solved = self.task()?.solved(&mut self.tracing, 0)?;
+                solved.taken(fields.number("choice")? as usize)
+            }
             "values" => self.values(&fields.texts("names")?),
             other => Err(Fault::new(format!("there is no request '{other}'"))),
         }

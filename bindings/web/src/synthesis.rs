@@ -1,11 +1,12 @@
-//! The section `[synthesis]` of a case: four-bars through two to five poses, and the case of one of them.
+//! The section `[synthesis]` of a case: four-bars through poses or points, and the case of one of them.
 
 use crate::fault::Fault;
 use crate::typed::typed;
 use kempe::math::Complex;
 use kempe::model::Value as Written;
 use kempe_synthesis::{
-    abs, four_bars, ranked, FourBar, Grashof, Limits, Poses, Ranked, Refused, TYPES,
+    abs, four_bars, ranked, FourBar, Grashof, Limits, Linkage, PathSearch, Poses, Ranked, Refused,
+    Wanted, TYPES,
 };
 use serde_json::{json, Value};
 
@@ -14,9 +15,25 @@ const MASSES: [&str; 3] = ["crank", "coupler", "rocker"];
 /// Dyads that are sampled without `samples`.
 const SAMPLES: f64 = 240.0;
 
+/// What a coupler must do.
+enum Given {
+    Poses(Poses),
+    Path(Points),
+}
+
+/// Points of a path with the number of starts and their seed.
+struct Points {
+    wanted: Wanted,
+    starts: Option<usize>,
+    seed: u64,
+}
+
+/// The search for the four-bars of some points, and its seed. It goes on after the rest of the case has changed.
+pub struct Tracing(PathSearch, u64);
+
 /// A task, the limits of its candidates, and their masses.
 pub struct Task {
-    poses: Poses,
+    given: Given,
     limits: Limits,
     masses: [Option<f64>; 3],
 }
@@ -27,87 +44,165 @@ impl From<Refused> for Fault {
     }
 }
 
-impl Task {
-    /// Reads the section of a case.
-    pub fn read(section: &[(String, Written)]) -> Result<Self, Fault> {
-        let get = |key: &str| section.iter().find(|(known, _)| known == key).map(|(_, of)| of);
-        let word = |key: &str, absent: &'static str| match get(key) {
-            Some(Written::Text(text)) => text.clone(),
-            _ => absent.to_string(),
-        };
-        if section.is_empty() {
-            return Err(Fault::new("the case has no section [synthesis]"));
+/// The entries of the section.
+struct Section<'a>(&'a [(String, Written)]);
+
+impl Section<'_> {
+    fn get(&self, key: &str) -> Option<&Written> {
+        self.0.iter().find(|(known, _)| known == key).map(|(_, of)| of)
+    }
+
+    fn word<'a>(&'a self, key: &str, absent: &'a str) -> &'a str {
+        match self.get(key) {
+            Some(Written::Text(text)) => text,
+            _ => absent,
         }
-        let (task, family) = (word("task", ""), word("family", "four_bar"));
+    }
+
+    fn number(&self, key: &str, unit: &str) -> Result<Option<f64>, Fault> {
+        self.get(key).map(|of| typed(of, key, unit)).transpose()
+    }
+
+    /// An entry of a table of the section.
+    fn entry(&self, key: &str, name: &str) -> Option<&Written> {
+        let Some(Written::Table(given)) = self.get(key) else { return None };
+        given.iter().find(|(known, _)| known == name).map(|(_, of)| of)
+    }
+
+    fn pivot(&self, name: &str) -> Result<Option<Complex>, Fault> {
+        let own = self.entry("pivots", name);
+        own.map(|at| Ok(complex(&row(at, "pivots", &["m", "m"])?))).transpose()
+    }
+
+    fn given(&self) -> Result<Given, Fault> {
+        let (task, family) = (self.word("task", ""), self.word("family", "four_bar"));
         let refused = |what: String| {
             let hint = "the command 'kempe synthesis' with this file solves the task";
             Err(Fault::new(format!("{what} is not solved in the page")).hint(hint))
         };
-        if task != "motion" || family != "four_bar" {
+        let traces = task == "path";
+        if !(traces || task == "motion") || family != "four_bar" {
             return refused(format!("the task '{task}' for the family '{family}'"));
         }
-        let rows = rows(get("poses"), "poses", &["m", "m", "rad"])?;
-        if rows.len() > 5 {
+        let rows = match traces {
+            true => rows(self.get("points"), "points", &["m", "m"])?,
+            false => rows(self.get("poses"), "poses", &["m", "m", "rad"])?,
+        };
+        if !traces && rows.len() > 5 {
             return refused(format!("a task of {} poses; two to five are exact. It", rows.len()));
         }
-        let number = |key: &str, unit: &str| get(key).map(|of| typed(of, key, unit)).transpose();
-        let pivot = |name: &str| -> Result<Option<Complex>, Fault> {
-            let Some(Written::Table(given)) = get("pivots") else { return Ok(None) };
-            let own = given.iter().find(|(known, _)| known == name).map(|(_, at)| at);
-            own.map(|at| Ok(complex(&row(at, "pivots", &["m", "m"])?))).transpose()
+        let places = rows.iter().map(|row| complex(row)).collect();
+        let pivots = [self.pivot("O")?, self.pivot("D")?];
+        let seed = self.number("seed", "")?.unwrap_or(0.0) as u64;
+        if !traces {
+            let angles = rows.iter().map(|row| row[2]).collect();
+            let samples = self.number("samples", "")?.unwrap_or(SAMPLES) as usize;
+            return Ok(Given::Poses(Poses { places, angles, pivots, samples, seed }));
+        }
+        let cranks = match self.get("angles") {
+            Some(given) => row(given, "angles", &vec!["rad"; rows.len()])?,
+            None => Vec::new(),
         };
-        let poses = Poses {
-            places: rows.iter().map(|row| complex(row)).collect(),
-            angles: rows.iter().map(|row| row[2]).collect(),
-            pivots: [pivot("O")?, pivot("D")?],
-            samples: number("samples", "")?.unwrap_or(SAMPLES) as usize,
-            seed: number("seed", "")?.unwrap_or(0.0) as u64,
-        };
-        let mass = |name: &str| -> Result<Option<f64>, Fault> {
-            let Some(Written::Table(given)) = get("masses") else { return Ok(None) };
-            let own = given.iter().find(|(known, _)| known == name).map(|(_, mass)| mass);
-            own.map(|mass| typed(mass, "masses", "kg")).transpose()
-        };
-        let [crank, coupler, rocker] = MASSES.map(mass);
+        let offset = self.word("offsets", "free") == "free";
+        let wanted = Wanted { places, cranks, offset, pivots, ..Wanted::default() };
+        let starts = self.number("starts", "")?.map(|starts| starts as usize);
+        Ok(Given::Path(Points { wanted, starts, seed }))
+    }
+}
+
+impl Task {
+    /// Reads the section of a case.
+    pub fn read(section: &[(String, Written)]) -> Result<Self, Fault> {
+        if section.is_empty() {
+            return Err(Fault::new("the case has no section [synthesis]"));
+        }
+        let of = Section(section);
+        let given = of.given()?;
+        let mass = |name| of.entry("masses", name).map(|mass| typed(mass, "masses", "kg"));
+        let [crank, coupler, rocker] = MASSES.map(|name| mass(name).transpose());
         let limits = Limits {
-            tell: word("defects", "exclude") == "tell",
-            transmission_angle: number("transmission_angle", "rad")?,
-            grashof: grashof(get("grashof"))?,
-            within: within(get("within"))?,
-            way: match word("direction", "").as_str() {
+            tell: of.word("defects", "exclude") == "tell",
+            transmission_angle: of.number("transmission_angle", "rad")?,
+            grashof: grashof(of.get("grashof"))?,
+            within: within(of.get("within"))?,
+            way: match of.word("direction", "") {
                 "ccw" => 1,
                 "cw" => -1,
                 _ => 0,
             },
         };
-        Ok(Self { poses, limits, masses: [crank?, coupler?, rocker?] })
+        Ok(Self { given, limits, masses: [crank?, coupler?, rocker?] })
     }
 
-    /// The poses and the four-bars, or the reason why there are none.
-    pub fn described(&self) -> Value {
-        let given = self.poses.places.iter().zip(&self.poses.angles);
-        let poses: Vec<Value> = given.map(|(at, angle)| json!([at.re, at.im, angle])).collect();
-        let (mut found, refused) = match self.solved() {
+    /// The task and its four-bars, or the reason why there are none. A search tries some more `starts`.
+    pub fn described(&self, tracing: &mut Option<Tracing>, starts: usize) -> Value {
+        let (mut found, refused) = match self.solved(tracing, starts) {
             Ok(solved) => (solved.described(), Value::Null),
             Err(fault) => {
                 (json!({ "complete": false, "excluded": [], "candidates": [] }), fault.value())
             }
         };
-        (found["poses"], found["refused"]) = (json!(poses), refused);
+        let pair = |at: &Complex| json!([at.re, at.im]);
+        let (poses, points): (Vec<Value>, Vec<Value>) = match &self.given {
+            Given::Path(of) => (Vec::new(), of.wanted.places.iter().map(pair).collect()),
+            Given::Poses(of) => {
+                let given = of.places.iter().zip(&of.angles);
+                (given.map(|(at, angle)| json!([at.re, at.im, angle])).collect(), Vec::new())
+            }
+        };
+        (found["poses"], found["points"], found["refused"]) =
+            (json!(poses), json!(points), refused);
+        if let (Given::Path(_), Some(Tracing(search, _))) = (&self.given, tracing) {
+            (found["tried"], found["most"]) = (json!(search.tried()), json!(search.most()));
+        }
         found
     }
 
     /// The four-bars, best first.
-    pub fn solved(&self) -> Result<Solved, Fault> {
-        let (linkages, complete) = four_bars(&self.poses)?;
-        let either = self.poses.pivots == [None, None];
+    pub fn solved(&self, tracing: &mut Option<Tracing>, starts: usize) -> Result<Solved, Fault> {
+        let (linkages, complete, either, at) = match &self.given {
+            Given::Poses(of) => {
+                let (linkages, complete) = four_bars(of)?;
+                let at = vec![(of.places[0], of.angles[0]); linkages.len()];
+                (linkages, complete, of.pivots == [None, None], at)
+            }
+            Given::Path(of) => of.found(tracing, starts)?,
+        };
         let (kept, excluded) = ranked(&linkages, &self.limits, either, complete);
         let candidates = kept
             .into_iter()
-            .map(|one| (FourBar::of(&linkages[one.index].0, &one, &self.poses), one))
+            .map(|one| (FourBar::of(&linkages[one.index].0, &one, at[one.index]), one))
             .collect();
         let errors = linkages.into_iter().map(|(_, error)| error).collect();
         Ok(Solved { candidates, errors, excluded, complete, masses: self.masses })
+    }
+}
+
+/// Four-bars with their errors, whether these are all, whether the rocker may be the crank, and the place and angle of
+/// each moving frame.
+type Linkages = (Vec<(Linkage, f64)>, bool, bool, Vec<(Complex, f64)>);
+
+impl Points {
+    /// What the search has found after some more starts.
+    fn found(&self, tracing: &mut Option<Tracing>, starts: usize) -> Result<Linkages, Fault> {
+        let known = tracing
+            .take()
+            .filter(|Tracing(search, seed)| search.wanted == self.wanted && *seed == self.seed);
+        let known = known.and_then(|mut one| one.0.limit(self.starts).then_some(one.0));
+        let search = match known {
+            Some(search) => search,
+            None => PathSearch::new(self.wanted.clone(), self.starts, self.seed)?,
+        };
+        let search = &mut tracing.insert(Tracing(search, self.seed)).0;
+        search.advance(starts)?;
+        let found = search.found();
+        if found.is_empty() && search.ended() {
+            return Err(search.none().into());
+        }
+        let at = found.iter().map(|one| (one.points[0], one.frame)).collect();
+        let linkages = found.into_iter().map(|one| (one.linkage, one.error)).collect();
+        let either = self.wanted.cranks.is_empty() && self.wanted.pivots == [None, None];
+        Ok((linkages, search.complete(), either, at))
     }
 }
 

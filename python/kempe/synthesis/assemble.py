@@ -227,3 +227,40 @@ def families(family: str, known: Sequence[str] = ("four_bar",)) -> None:
     """
     if family not in known:
         refuse("family", f"{family!r}; must be {' or '.join(map(repr, known))}")
+
+
+def together(parts: list[Bars]) -> Bars:
+    """Four-bars of several lists."""
+    parts = [part for part in parts if len(part.o)]
+    if not parts:
+        none, wide = np.zeros(0, dtype=complex), np.zeros((0, 1), dtype=complex)
+        return Bars(none, wide, wide, none, wide, np.zeros(0), np.zeros(0))
+    names = Bars.__dataclass_fields__
+    return Bars(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+
+
+def traced(found: _core.Traces, n: int) -> Bars:
+    """Four-bars of the core at n positions."""
+    flat, frames, errors = found
+    at = flat.view(np.complex128).reshape(len(errors), 3 * n + 2)
+    o, a, b, d, p = (
+        at[:, 0],
+        at[:, 1 : n + 1],
+        at[:, n + 1 : 2 * n + 1],
+        at[:, 2 * n + 1],
+        at[:, -n:],
+    )
+    return Bars(o, a, b, d, p, np.array(frames), np.array(errors))
+
+
+def distinct(bars: Bars) -> Bars:
+    """Each four-bar once, those with the least error first."""
+    bars = bars.taken(np.argsort(bars.error, kind="stable"))
+    at = np.column_stack([bars.o, bars.a[:, 0], bars.b[:, 0], bars.d])
+    kept: list[int] = []
+    for k in range(len(at)):
+        size = abs(at[k] - at[k].mean()).max()
+        both = [at[kept], at[kept][:, ::-1]]
+        if all(not (abs(one - at[k]).max(axis=1) < 1e-6 * size).any() for one in both):
+            kept.append(k)
+    return bars.taken(np.array(kept, dtype=int))

@@ -14,9 +14,8 @@ from kempe.errors import ModelError
 from kempe.model.given import value
 from kempe.model.values import Number, refuse
 from kempe.synthesis import assemble, tasks
-from kempe.synthesis.assemble import Bars
+from kempe.synthesis.assemble import Bars, distinct
 from kempe.synthesis.dyads import Conditions, Dyads, joined
-from kempe.synthesis.fit import EXACT, distinct
 from kempe.synthesis.found import Found
 from kempe.synthesis.tasks import Complexes
 
@@ -24,6 +23,8 @@ from kempe.synthesis.tasks import Complexes
 SAMPLES, _STARTS, _ROUNDS, _STEPS = 400, 300, 3, 150
 #: Factor of the closure in approximations.
 _CLOSING = 1e3
+#: A four-bar is exact if its sum of squares is below the square of this.
+_EXACT = 1e-10
 #: Least range of an angle with free scales, rad.
 _LEAST = 0.1
 
@@ -161,7 +162,7 @@ def _fitted(pairs: Floats, fixed: tuple[bool, bool], seed: int, *, exact: bool) 
         for linkage, positions in _starts(targets, fixed, random):
             reached = _core.fit_pairs(targets.tolist(), 1.0, linkage, positions, free, _STEPS)
             used = min(abs(reached[0][5]) * ranges[0], abs(reached[0][6]) * ranges[1])
-            if used > _LEAST and (not exact or reached[2] < EXACT**2):
+            if used > _LEAST and (not exact or reached[2] < _EXACT**2):
                 found.append(reached)
     found.sort(key=lambda one: one[2])
     if not exact:

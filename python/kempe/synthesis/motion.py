@@ -15,7 +15,6 @@ from kempe.model.values import Number
 from kempe.synthesis import assemble, tasks
 from kempe.synthesis.assemble import Bars, Slides
 from kempe.synthesis.dyads import Conditions
-from kempe.synthesis.fit import Task, distinct
 from kempe.synthesis.found import Found
 from kempe.synthesis.tasks import Complexes
 
@@ -66,7 +65,7 @@ def motion(
             slides, asked, either=False, complete=False, task=places, poses=poses
         )
     if len(places) > 5:
-        bars = _fitted(Task(places, angles, pivots=fixed), seed)
+        bars = _fitted(places, angles, fixed, seed)
         return assemble.collected(
             bars, asked, either=not fixed, complete=False, task=places, poses=poses
         )
@@ -80,9 +79,8 @@ def _exact(
     places: Complexes, angles: Floats, fixed: Mapping[str, complex], samples: int, seed: int
 ) -> tuple[Bars, bool]:
     """Four-bars of pairs of dyads, and whether these are all."""
-    pivots = [(fixed[name].real, fixed[name].imag) if name in fixed else None for name in "OD"]
     flat, error, complete = _core.four_bars(
-        tasks.pairs_in(places), angles.tolist(), (pivots[0], pivots[1]), samples, seed
+        tasks.pairs_in(places), angles.tolist(), tasks.both(fixed), samples, seed
     )
     n = len(places)
     found = flat.view(np.complex128).reshape(len(error), 2 * n + 2)
@@ -130,27 +128,28 @@ def _slides(
     return Slides(o, a, b, b[:, 0], p, frame, error, way)
 
 
-def _fitted(task: Task, seed: int) -> Bars:
+def _fitted(places: Complexes, angles: Floats, fixed: Mapping[str, complex], seed: int) -> Bars:
     """Four-bars by least squares, from exact ones through some of the poses."""
-    assert task.frames is not None
-    random, n = np.random.default_rng(seed), len(task.places)
+    random, n = np.random.default_rng(seed), len(places)
     starts = []
     for k in range(_SUBSETS):
         five = k % 2 == 0
         chosen = np.sort(random.choice(n, 5 if five else 4, replace=False))
-        conditions = Conditions(task.places[chosen], task.frames[chosen])
+        conditions = Conditions(places[chosen], angles[chosen])
         try:
             found = conditions.all(8, seed + k).of("pin")
         except ModelError:
             continue
         # the same bodies at all poses: their lengths vary at those that were left out
-        angles = task.frames - task.frames[chosen[0]]
-        pins = found.pin - task.places[chosen[0]]
-        pins = task.places[0] + pins * np.exp(1j * angles[0])
+        turned = angles[0] - angles[chosen[0]]
+        pins = found.pin - places[chosen[0]]
+        pins = places[0] + pins * np.exp(1j * turned)
         dyads = (pins, found.pivot)
-        places = assemble.pairs_of(found, None, seed)
-        bars = bars_of((dyads, dyads), places, task.places, task.frames).shapely()
-        starts += [(float(error), bars, k) for k, error in enumerate(bars.error)]
-    starts.sort(key=lambda start: start[0])
-    fitted = [task.fitted(task.start_of(bars, k))[0] for _, bars, k in starts[:_STARTS]]
-    return distinct(task.bars(fitted))
+        pairs = assemble.pairs_of(found, None, seed)
+        starts.append(bars_of((dyads, dyads), pairs, places, angles).shapely())
+    bars = assemble.together(starts)
+    bars = bars.taken(np.argsort(bars.error, kind="stable")[:_STARTS])
+    fitted = _core.near_poses(
+        tasks.pairs_in(places), angles.tolist(), tasks.both(fixed), bars.numbers()
+    )
+    return assemble.traced(fitted, n)

@@ -53,17 +53,9 @@ def poses(given: Any) -> tuple[Complexes, Floats]:
 
 
 def points(given: Any) -> Complexes:
-    """Points; at least two, and no two are the same.
-
-    Raises:
-        ModelError: they are not.
-    """
+    """Points; the core refuses points that are the same."""
     found = rows(given, "points", ["m", "m"], "[(0, 0), (0.1, 0.2)]")
-    if len(found) < 2:
-        refuse("points", f"{len(found)} point{'' if len(found) == 1 else 's'}; at least two")
-    places = found[:, 0] + 1j * found[:, 1]
-    _distinct(found / size(places), "points", "point")
-    return np.asarray(places)
+    return np.asarray(found[:, 0] + 1j * found[:, 1])
 
 
 def pairs(given: Any, unit: str = "rad") -> Floats:
@@ -112,3 +104,8 @@ def pivots(given: Mapping[str, Sequence[Number]] | None, names: str) -> dict[str
     if len(found) == 2 and len(set(found.values())) == 1:
         refuse("pivots", "O and D are the same; move one of them")
     return found
+
+
+def both(fixed: Mapping[str, complex]) -> tuple[tuple[float, float] | None, ...]:
+    """The ground pivots of crank and rocker as the core takes them."""
+    return tuple((fixed[name].real, fixed[name].imag) if name in fixed else None for name in "OD")
