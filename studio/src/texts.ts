@@ -366,7 +366,7 @@ export const texts = {
       move: "Drag the mechanism; arrow keys push the selected body.",
       live: "Hold a body with the mouse, or press the arrow keys, to pull at it; space pauses.",
       read: "The slider below the drawing shows any time of the run; curves follow.",
-      design: "Click two to five places that the coupler must take; drag the end of an arm to turn a pose.",
+      design: "Click two to five places that the coupler must take, or draw the path that it must follow.",
       two: "Type digits after the first click for an exact length; begin at a point to pin the bar there.",
       many: "Click all points of the body; enter or a double click finishes it.",
       one: "Click where the mass is; on a point it is pinned there.",

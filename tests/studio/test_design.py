@@ -198,7 +198,7 @@ def test_what_is_not_possible_is_explained_with_a_remedy(studio: Opener) -> None
     hands.press("#mode-design")
     hands.at((0.1, 0.1))
     assert "at most 5 poses" in one.message()
-    one.load('kempe = 1\n[synthesis]\ntask = "path"\npoints = [[0, 0], [1, 0], [1, 1]]\n')
+    one.load('kempe = 1\n[synthesis]\ntask = "function"\npairs = [[0, 0], [1, 0.5], [2, 1]]\n')
     hands.press("#mode-design")
     assert "kempe synthesis" in one.page.locator(".poses-panel .wrong").inner_text()
     one.load(task("[0, 0, 0], [1, 0, 0], [1, 0, 0]"))

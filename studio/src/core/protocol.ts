@@ -229,6 +229,10 @@ export interface Search {
 /** The answer to the section [synthesis]. */
 export interface Solved {
   poses: Triple[];
+  points: Point[];
+  /** Of the search for a path: starts that were tried, and those after which it ends. */
+  tried?: number;
+  most?: number;
   refused: { message: string; hint?: string | null } | null;
   complete: boolean;
   excluded: { kind: string; count: number }[];
@@ -283,7 +287,7 @@ export interface Requests {
   };
   optimize: { send: object; reply: Search };
   improve: { send: object; reply: Search };
-  synthesis: { send: object; reply: Solved };
+  synthesis: { send: { starts?: number }; reply: Solved };
   candidate: { send: { choice: number }; reply: { changes: Change[] } };
   instant: { send: { at: number }; reply: Instant };
   frames: { send: object; reply: object };

@@ -31,6 +31,7 @@ const LONGER: Partial<Record<Do, number>> = {
   slopes: 6,
   optimize: 6,
   improve: 6,
+  synthesis: 6,
 };
 
 /** The request was replaced by a newer one before it was sent. */

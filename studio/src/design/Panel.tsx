@@ -13,25 +13,49 @@ import { take } from "./take";
 import {
   active,
   candidate,
+  choose,
   chosen,
+  draws,
   fault,
-  MOST,
+  full,
+  hovered,
+  list,
   posed,
   poses,
   removePose,
+  removeTask,
   rowOf,
+  searching,
   section,
   setOption,
+  single,
   solved,
+  stop,
   taken,
   written,
 } from "./task";
 
 export function DesignPanel() {
   const words = texts.design;
+  const begun = poses.value.length > 0;
+  const told = draws.value ? (begun ? words.hintPath : words.beginPath) : begun ? words.hint : words.begin;
+  const kind = (of: "poses" | "points") => (
+    <Button
+      label={words.kinds[of]}
+      pressed={list.value === of}
+      onClick={() => {
+        draws.value = of === "points";
+      }}
+      id={`by-${of}`}
+    />
+  );
   return (
     <div class="properties poses-panel">
-      <p class="doc">{poses.value.length ? words.hint : words.begin}</p>
+      <div class="buttons">
+        {kind("poses")}
+        {kind("points")}
+      </div>
+      <p class="doc">{told}</p>
       {fault.value ? (
         <p class="doc wrong" role="alert">
           {fault.value}
@@ -47,26 +71,34 @@ export function DesignPanel() {
 function Poses() {
   const words = texts.design;
   const { length } = units.value;
+  const [what, flat] = [words.one[list.value], draws.value ? " flat" : ""];
+  if (!single.value)
+    return (
+      <Section title={words.poses.points}>
+        <p class="doc">{words.many(poses.value.length)}</p>
+        <Button label={words.removePath} onClick={() => void removeTask()} id="remove-path" />
+      </Section>
+    );
   return (
-    <Section title={words.poses}>
+    <Section title={words.poses[list.value]}>
       {poses.value.length ? (
-        <div class="pose-head" aria-hidden="true">
+        <div class={`pose-head${flat}`} aria-hidden="true">
           <span />
           <span>x / {length}</span>
           <span>y / {length}</span>
-          <span>{words.angle(displayed("rad", units.value).unit)}</span>
+          {flat ? null : <span>{words.angle(displayed("rad", units.value).unit)}</span>}
         </div>
       ) : null}
       {poses.value.map((pose, k) => (
-        <div class={k === active.value ? "pose-row chosen" : "pose-row"} key={k}>
-          <Button label={String(k + 1)} hint={words.pose(k + 1)} onClick={() => (active.value = k)} spoken />
-          {pose.map((value, j) => (
+        <div class={`pose-row${flat}${k === active.value ? " chosen" : ""}`} key={k}>
+          <Button label={String(k + 1)} hint={words.pose(what, k + 1)} onClick={() => (active.value = k)} spoken />
+          {pose.slice(0, flat ? 2 : 3).map((value, j) => (
             <PoseField key={j} k={k} j={j} value={value} />
           ))}
-          <Button label={words.remove(k + 1)} icon="close" kind="small" onClick={() => void removePose(k)} />
+          <Button label={words.remove(what, k + 1)} icon="close" kind="small" onClick={() => void removePose(k)} />
         </div>
       ))}
-      <Button label={words.add} onClick={addBeside} disabled={poses.value.length >= MOST} id="add-pose" />
+      <Button label={words.add(what)} onClick={addBeside} disabled={full.value} id="add-pose" />
     </Section>
   );
 }
@@ -92,7 +124,7 @@ function PoseField({ k, j, value }: { k: number; j: number; value: number }) {
       autocomplete="off"
       spellcheck={false}
       id={`pose-${k + 1}-${"xya"[j]}`}
-      aria-label={texts.design.field(k + 1, ["x", "y", texts.properties.angle][j]!)}
+      aria-label={texts.design.field(texts.design.one[list.value], k + 1, ["x", "y", texts.properties.angle][j]!)}
       value={shown}
       onFocus={() => (active.value = k)}
       onChange={(event) => event.currentTarget.value !== shown && keep(event.currentTarget.value)}
@@ -156,24 +188,18 @@ function Candidates() {
           {found.refused.hint ? `; ${found.refused.hint}` : ""}
         </p>
       ) : null}
+      {searching.value && found.tried !== undefined ? (
+        <div class="searching">
+          <progress aria-label={words.searching} max={found.most} value={found.tried} />
+          <Button label={words.cancel} onClick={() => void stop()} id="stop" />
+        </div>
+      ) : null}
       {one ? (
         <>
-          <label class="candidate">
-            <span id="candidate-number">{words.number(chosen.value + 1, count)}</span>
-            <input
-              id="candidate"
-              type="range"
-              min={1}
-              max={count}
-              step={1}
-              value={chosen.value + 1}
-              disabled={count < 2}
-              onInput={(event) => (chosen.value = Number(event.currentTarget.value) - 1)}
-            />
-          </label>
+          {found.tried === undefined ? <Slider count={count} /> : <List all={found.candidates} />}
           <Facts rows={facts(one)} />
           <p class={one.defects.length ? "doc wrong" : "doc"} id="defects">
-            {one.defects.length ? one.defects.join("; ") : words.noDefects}
+            {one.defects.length ? one.defects.join("; ") : words.noDefects(words.one[list.value])}
           </p>
           <div class="buttons">
             <Button label={words.take} hint={words.takeHint} onClick={() => void take()} kind="main" id="take" />
@@ -193,15 +219,68 @@ function Candidates() {
   );
 }
 
+function Slider({ count }: { count: number }) {
+  return (
+    <label class="candidate">
+      <span id="candidate-number">{texts.design.number(chosen.value + 1, count)}</span>
+      <input
+        id="candidate"
+        type="range"
+        min={1}
+        max={count}
+        step={1}
+        value={chosen.value + 1}
+        disabled={count < 2}
+        onInput={(event) => choose(Number(event.currentTarget.value) - 1)}
+      />
+    </label>
+  );
+}
+
+/** The four-bars of a path; the one under the pointer is shown against its points. */
+function List({ all }: { all: Candidate[] }) {
+  const words = texts.design;
+  const { unit } = displayed("rad", units.value);
+  return (
+    <div class="traces" role="group" onPointerLeave={() => (hovered.value = null)}>
+      <div class="trace" aria-hidden="true">
+        <span title={words.errorHint}>{words.error(units.value.length)}</span>
+        <span title={words.least}>{words.transmitted(unit)}</span>
+        <span>{words.type}</span>
+      </div>
+      {all.map((one, k) => (
+        <button
+          type="button"
+          key={k}
+          class={`trace${one.defects.length ? " flawed" : ""}`}
+          aria-pressed={chosen.value === k}
+          onPointerEnter={(event) => {
+            if (event.pointerType === "mouse") hovered.value = k;
+          }}
+          onClick={() => choose(k)}
+        >
+          <span>{number(one.error, "m")[0]}</span>
+          <span>{one.transmission_angle > 0 ? number(one.transmission_angle, "rad")[0] : "–"}</span>
+          <span>{[one.type, ...one.defects.map((what) => what.split(":")[0])].join(", ")}</span>
+        </button>
+      ))}
+    </div>
+  );
+}
+
+/** A number in the unit of the display, and this unit. */
+function number(value: number, of: string): [string, string] {
+  const { factor, unit } = displayed(of, units.value);
+  return [minus(significant(value * factor)), unit];
+}
+
 function facts(one: Candidate): [string, string][] {
   const words = texts.design;
-  const of = (value: number, unit: string): string => {
-    const { factor, unit: name } = displayed(unit, units.value);
-    return besideUnit(minus(significant(value * factor)), name);
-  };
+  const of = (value: number, unit: string) => besideUnit(...number(value, unit));
   const [crank, coupler, rocker, ground] = one.lengths;
   return [
     [words.type, one.type],
+    ...(draws.value ? [[words.distance, of(one.error, "m")] as [string, string]] : []),
     [words.turns, one.turns ? words.fully : words.between],
     [words.least, one.transmission_angle > 0 ? of(one.transmission_angle, "rad") : words.passes],
     [words.lengths.crank, of(crank, "m")],

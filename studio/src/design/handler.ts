@@ -1,4 +1,4 @@
-// Design mode: clicks place poses of the coupler, drags move and turn them.
+// Design mode: clicks place poses of the coupler or points of its path, drags move and turn them, or draw the path.
 import type { Triple } from "../core/protocol";
 import { snapStep } from "../draw/measure";
 import type { Handler, Spot } from "../modes/handler";
@@ -8,7 +8,8 @@ import { report } from "../store/session";
 import { view } from "../store/sheet";
 import { snapping } from "../store/state";
 import { ORIGIN, tipOf } from "./painting";
-import { active, addPose, posed, poses, written } from "./task";
+import { begin, drop, finish, follow, stroke } from "./stroke";
+import { active, addPose, draws, posed, poses, single, written } from "./task";
 
 /** Angles snap to multiples of this, rad. */
 const TURN = Math.PI / 12;
@@ -28,9 +29,10 @@ let over = false;
 /** The pose under a place, and whether it is its arm. */
 function under({ px, touch }: Spot): { k: number; turns: boolean } | null {
   const reach = touch ? FINGER : REACH;
+  if (!single.value) return null;
   const all = poses.value.flatMap((pose, k) => [
     { k, turns: false, far: distance(px, view.toScreen([pose[0], pose[1]])) - ORIGIN / 2 },
-    { k, turns: true, far: distance(px, tipOf(view, pose)) },
+    ...(draws.value ? [] : [{ k, turns: true, far: distance(px, tipOf(view, pose)) }]),
   ]);
   const near = all.filter(({ far }) => far < reach).sort((a, b) => a.far - b.far);
   return near[0] ?? null;
@@ -57,19 +59,25 @@ function moved({ k, turns }: Held, spot: Spot): Triple {
 export const design: Handler = {
   down(spot) {
     const found = under(spot);
-    if (!found) return false;
+    if (!found) {
+      if (draws.value) begin(spot.at);
+      return draws.value;
+    }
     active.value = found.k;
     held = { ...found, draft: new Draft() };
     return true;
   },
   drag(spot) {
+    follow(spot.at);
     if (held && poses.value[held.k]) held.draft.show(posed(held.k, written(moved(held, spot))));
   },
   up() {
+    void finish().catch(report);
     void held?.draft.keep().catch(report);
     held = null;
   },
   cancel() {
+    drop();
     void held?.draft.drop().catch(report);
     held = null;
   },
@@ -82,7 +90,7 @@ export const design: Handler = {
   hover(spot) {
     over = spot !== null && under(spot) !== null;
   },
-  cursor: () => (over ? "move" : "crosshair"),
+  cursor: () => (over && !stroke.value.length ? "move" : "crosshair"),
 };
 
 /** Add a pose with the angle of the last one. */

@@ -5,6 +5,7 @@ import { type Colours, font, rimmed } from "../draw/surface";
 import type { Point } from "../plane/points";
 import type { View } from "../plane/view";
 import { pathOf, pinsAt } from "./course";
+import { single } from "./task";
 
 /** Radius of the origin of a pose and length of its arm, px. */
 export const ORIGIN = 9;
@@ -25,7 +26,7 @@ export function paintPoses(
   active: number | null,
   colours: Colours,
 ): void {
-  const { accent, panel, text } = colours.named;
+  const { accent, panel } = colours.named;
   context.save();
   context.setLineDash([]);
   poses.forEach((pose, k) => {
@@ -35,20 +36,66 @@ export function paintPoses(
     context.lineWidth = k === active ? 4 : 2.5;
     context.stroke(through([at, tip], false));
     context.fillStyle = panel;
-    for (const ring of [circle(at, ORIGIN), circle(tip, 5)]) {
-      context.fill(ring);
-      context.stroke(ring);
-    }
-    context.font = font(12, 700);
-    context.textAlign = "center";
-    context.textBaseline = "middle";
-    context.fillStyle = text;
-    context.fillText(String(k + 1), at[0], at[1] + 0.5);
+    context.fill(circle(tip, 5));
+    context.stroke(circle(tip, 5));
+    paintNumber(context, at, k, k === active, colours);
   });
   context.restore();
 }
 
-/** The candidate: its links at the selected pose, faint at the others, and the path of the coupler. */
+function paintNumber(
+  context: CanvasRenderingContext2D,
+  at: Point,
+  k: number,
+  active: boolean,
+  { named: { accent, panel, text } }: Colours,
+): void {
+  const ring = circle(at, ORIGIN);
+  context.strokeStyle = accent;
+  context.lineWidth = active ? 4 : 2.5;
+  context.fillStyle = panel;
+  context.fill(ring);
+  context.stroke(ring);
+  context.font = font(12, 700);
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  context.fillStyle = text;
+  context.fillText(String(k + 1), at[0], at[1] + 0.5);
+}
+
+/** The points of a path, numbered if they are few, or the line that is being drawn. */
+export function paintPath(
+  context: CanvasRenderingContext2D,
+  view: View,
+  points: readonly Triple[],
+  active: number | null,
+  stroke: readonly Point[],
+  colours: Colours,
+): void {
+  const { accent } = colours.named;
+  context.save();
+  context.strokeStyle = accent;
+  context.lineWidth = 2.5;
+  context.stroke(
+    through(
+      stroke.map((at) => view.toScreen(at)),
+      false,
+    ),
+  );
+  if (!stroke.length)
+    points.forEach(([x, y], k) => {
+      const at = view.toScreen([x, y]);
+      if (single.value) paintNumber(context, at, k, k === active, colours);
+      else {
+        context.fillStyle = accent;
+        context.fill(circle(at, 2.5));
+      }
+    });
+  context.restore();
+}
+
+/** The candidate: its links at the selected pose, faint at the others, and the path of the coupler; without poses, where
+ * it begins. */
 export function paintCandidate(
   context: CanvasRenderingContext2D,
   view: View,
@@ -58,9 +105,10 @@ export function paintCandidate(
   colours: Colours,
 ): void {
   context.save();
-  context.strokeStyle = colours.named.quiet;
-  context.lineWidth = 1.5;
-  context.setLineDash([2, 4]);
+  const alone = !poses.length;
+  context.strokeStyle = alone ? colours.body(2) : colours.named.quiet;
+  context.lineWidth = alone ? 2 : 1.5;
+  context.setLineDash(alone ? [] : [2, 4]);
   context.stroke(
     through(
       pathOf(one).map((at) => view.toScreen(at)),
@@ -71,7 +119,8 @@ export function paintCandidate(
   poses.forEach((pose, k) => {
     if (k !== active) paintLinks(context, view, one, pose, colours, FAINT);
   });
-  if (poses[active]) paintLinks(context, view, one, poses[active], colours, 0.9);
+  const own = alone ? ([...one.points.P, one.frame] as Triple) : poses[active];
+  if (own) paintLinks(context, view, one, own, colours, 0.9);
   for (const name of ["O", "D"] as const) paintPivot(context, view.toScreen(one.points[name]), name, colours);
   context.restore();
 }

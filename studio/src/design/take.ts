@@ -5,7 +5,7 @@ import { change } from "../store/document";
 import { report, send } from "../store/session";
 import { announce, tree } from "../store/state";
 import { texts } from "../texts";
-import { chosen, taken } from "./task";
+import { chosen, stop, taken } from "./task";
 
 /** The first entry of the case that a change would replace, such as "body crank". */
 function replaced(changes: Change[]): string | null {
@@ -19,6 +19,7 @@ function replaced(changes: Change[]): string | null {
 
 /** Write the shown candidate into the case; a linkage that was taken before is replaced. */
 export async function take(): Promise<boolean> {
+  const starts = await stop();
   try {
     const { ok } = await send("candidate", { choice: chosen.value + 1 });
     const old = taken.value === null ? replaced(ok.changes) : null;
@@ -26,6 +27,7 @@ export async function take(): Promise<boolean> {
       announce("problem", texts.design.occupied(old), { hint: texts.design.occupiedHint });
       return false;
     }
+    if (starts) ok.changes.push({ path: ["synthesis", "starts"], value: starts });
     return await change(ok.changes);
   } catch (error) {
     report(error);

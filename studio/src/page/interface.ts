@@ -50,7 +50,11 @@ export const kempe: Interface = {
   settled,
   diagrams,
   slopes: async (measure) => (await send("slopes", { measure })).ok,
-  synthesis: async () => (await send("synthesis", {})).ok,
+  async synthesis() {
+    let { ok } = await send("synthesis", {});
+    while (ok.tried! < ok.most!) ({ ok } = await send("synthesis", { starts: 1 }));
+    return ok;
+  },
   quantity: async (name) => (await send("quantity", { name })).ok,
   async values(names) {
     const { units, rows } = await valuesOf(names);

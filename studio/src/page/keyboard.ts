@@ -1,7 +1,8 @@
 // The keyboard. A control that has the focus keeps the keys that it needs.
 
 import { pushPose } from "../design/handler";
-import { active, removePose } from "../design/task";
+import { drop } from "../design/stroke";
+import { active, removePose, stop } from "../design/task";
 import { canPaste, pasteCopied, remove, takeCopy } from "../edit/commands";
 import { openFile, saveFile } from "../give/files";
 import { ghost } from "../guide/guide";
@@ -129,6 +130,8 @@ function stopAll(): void {
   if (tool.value) restart(drawing() ? tool.value : null);
   else selection.value = null;
   active.value = null;
+  drop();
+  void stop();
   message.value = null;
   (document.activeElement as HTMLElement | null)?.blur();
 }

@@ -2,8 +2,9 @@
 import { isPin } from "../catalogue/catalogue";
 import { entry } from "../catalogue/tree";
 import { before } from "../design/improve";
-import { paintCandidate, paintPoses } from "../design/painting";
-import { active, candidate, poses as designPoses, taken } from "../design/task";
+import { paintCandidate, paintPath, paintPoses } from "../design/painting";
+import { stroke } from "../design/stroke";
+import { active, candidate, poses as designPoses, draws, taken } from "../design/task";
 import { paintCentres, paintCentrodes } from "../diagrams/painting";
 import { centres, centrodes } from "../diagrams/shown";
 import { paintArea } from "../draw/area";
@@ -50,10 +51,12 @@ export function follow(): void {
     mode,
     outlines,
     designPoses,
+    draws,
     poses,
     scene,
     selection,
     shown,
+    stroke,
     tree,
     traces,
     units,
@@ -106,9 +109,10 @@ function paintBefore(context: CanvasRenderingContext2D, colours: Colours): void 
 }
 
 function paintDesign(context: CanvasRenderingContext2D, colours: Colours): void {
-  const one = candidate.value;
-  if (one) paintCandidate(context, view, one, designPoses.value, active.value ?? 0, colours);
-  paintPoses(context, view, designPoses.value, active.value, colours);
+  const [one, all] = [candidate.value, designPoses.value];
+  if (one) paintCandidate(context, view, one, draws.value ? [] : all, active.value ?? 0, colours);
+  if (draws.value) paintPath(context, view, all, active.value, stroke.value, colours);
+  else paintPoses(context, view, all, active.value, colours);
 }
 
 /** The unit of the scale: mm if it is chosen; with m, the unit that suits the size of the mechanism. */
