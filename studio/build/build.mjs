@@ -55,14 +55,15 @@ const made = {
 
 /**
  * The program and the core, taken apart, as base64 of xz, which is a third smaller than gzip. Its checksum is one that
- * the decoder knows; both parts have no words of four bytes, which its usual options expect.
+ * the decoder knows; both parts have no words of four bytes, which its usual options expect. A preset would replace all
+ * other options, so that they are those of the highest one.
  */
 async function packed(program) {
   const size = Buffer.alloc(4);
   const written = Buffer.from(program);
   size.writeUInt32LE(written.length);
-  const preset = 9 | lzma.PRESET_EXTREME;
-  const filters = [{ id: lzma.FILTER_LZMA2, options: { preset, lc: 2, lp: 0, pb: 0 } }];
+  const own = { dictSize: 2 ** 23, mode: lzma.MODE_NORMAL, niceLen: 273, mf: lzma.MF_BT4, depth: 512 };
+  const filters = [{ id: lzma.FILTER_LZMA2, options: { ...own, lc: 1, lp: 0, pb: 0 } }];
   const coder = lzma.createStream("streamEncoder", { filters, check: lzma.CHECK_CRC32 });
   coder.end(Buffer.concat([size, written, pack(readFileSync(CORE))]));
   const parts = [];
