@@ -80,6 +80,26 @@ output_step = 0.1
 )
 
 
+#: The first analysis ends while the drive gives its largest effort; the second goes on there.
+LIMITED = (
+    ROD
+    + """[drivers.motor]
+type = "coordinate_driver"
+coordinate = "A.angle"
+value = "0.8*sin(4*t)"
+limit = 5.5
+[analyses.begin]
+type = "dynamics"
+t_end = 1
+output_step = 0.1
+[analyses.more]
+type = "dynamics"
+t_end = 2
+output_step = 0.1
+"""
+)
+
+
 def with_several() -> dict[str, str]:
     """All case files of the examples and tests that have at least two analyses."""
     paths = [*(ROOT / "examples").glob("*.toml"), *(ROOT / "tests").rglob("*.toml")]
@@ -87,7 +107,8 @@ def with_several() -> dict[str, str]:
     return {name: text for name, text in found.items() if text.count("[analyses.") > 1}
 
 
-CASES = {"released": RELEASED, "at_rest": AT_REST, "drifted": DRIFTED, **with_several()}
+CASES = {"released": RELEASED, "at_rest": AT_REST, "drifted": DRIFTED, "limited": LIMITED}
+CASES |= with_several()
 
 
 def test_the_cases_contain_files() -> None:
