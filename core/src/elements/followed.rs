@@ -2,7 +2,7 @@
 
 use super::attachment::Attachment;
 use super::quantity_kind::QuantityKind;
-use crate::math::{Local, Pose, Real, ShortArray, Twist};
+use crate::math::{Local, Pose, Real, ShortArray, Twist, Vec2, Wrench};
 
 /// A body of a model: 0 is ground, and moving bodies are numbered from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -122,6 +122,17 @@ pub struct Acted<S = f64> {
     pub of: Followed<S>,
     /// Its derivatives with respect to x, y and angle of its bodies i and j.
     pub gradient: [[S; 3]; 2],
+}
+
+impl<S: Real> Acted<S> {
+    /// The wrenches on bodies i and j of an effort along the quantity, about the origins of their frames.
+    #[inline(always)]
+    pub fn wrenches(&self, effort: S) -> [Wrench<S>; 2] {
+        self.gradient.each(|[x, y, torque]| Wrench {
+            force: Vec2::new(x, y).scale(effort),
+            torque: torque * effort,
+        })
+    }
 }
 
 impl<S: From<f64>> From<CoordinateOf> for Acted<S> {

@@ -2,7 +2,7 @@
 
 use super::clearance::Clearance;
 use super::declare::Element;
-use super::followed::{BodyId, Followed, JointId};
+use super::followed::{Acted, BodyId, Followed, JointId};
 use super::group::Group;
 use super::joint_trait::{At, Required, ResultQuantity};
 use super::measured::Measured;
@@ -48,9 +48,8 @@ pub struct Held<'a> {
 }
 
 impl<S: Real> Situation<'_, S> {
-    /// `positive` where the function of a switch of the element is positive, otherwise `otherwise`. `switch` is the
-    /// index in [`Force::switches`]. During a step of an integrator, the sign at the beginning of the step is used,
-    /// so that both values must be defined on both sides.
+    /// `positive` where function `switch` of [`Force::switches`] is positive, otherwise `otherwise`. During a step of an
+    /// integrator, the sign at its beginning is used, so that both values must be defined on both sides.
     #[inline(always)]
     pub fn choose(&self, switch: usize, function: S, positive: S, otherwise: S) -> S {
         match self.held.pieces.get(self.held.first + switch) {
@@ -58,6 +57,17 @@ impl<S: Real> Situation<'_, S> {
             Some(piece) if *piece < 0.0 => otherwise,
             _ => S::select(function, positive, otherwise),
         }
+    }
+
+    /// The rate of a quantity on which the force acts.
+    #[inline(always)]
+    pub fn rate(&self, of: &Acted<S>) -> S {
+        let mut sum = S::zero();
+        for (body, [x, y, angle]) in of.gradient.iter().enumerate() {
+            let twist = self.body(body).twist;
+            sum += *x * twist.velocity.x + *y * twist.velocity.y + *angle * twist.omega;
+        }
+        sum
     }
 }
 

@@ -1,6 +1,7 @@
 //! A model over formulas: the definition with all names linked, before numbers are inserted.
 
 use super::beam_names::is_weld;
+use super::companions;
 use super::definition::{Definition, Entry, Value};
 use super::doubt::Doubt;
 use super::functions::Functions;
@@ -11,7 +12,6 @@ use super::play;
 use super::problem::Problem;
 use super::quantities::Quantities;
 use super::scope::{states, Scope};
-use super::slip;
 use super::variable::Variable;
 use crate::elements::{
     holding, BodyId, Constraint, CoordinateOf, Fixes, Followed, ForceElement, Group, JointId,
@@ -211,7 +211,7 @@ impl Blueprint {
             Some((Some(k), (name.clone(), &[][..], force.companion()?)))
         };
         let of_joint = |(k, (name, _, joint)): (usize, &LinkedConstraint)| {
-            let own = slip::companion_of((JointId(k), name, joint), quantities, problems)?;
+            let own = companions::companion_of((JointId(k), name, joint), quantities, problems)?;
             Some((None, (name.clone(), &[][..], own)))
         };
         let forces = self.forces.iter().enumerate().filter_map(of_force);

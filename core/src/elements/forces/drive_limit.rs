@@ -65,16 +65,6 @@ impl<S: Real> DriveLimit<S> {
             _ => S::zero(),
         }
     }
-
-    /// The rate of the coordinate.
-    fn rate(&self, at: &Situation<'_, S>) -> S {
-        let mut sum = S::zero();
-        for (body, [x, y, angle]) in self.coordinate.gradient.iter().enumerate() {
-            let twist = at.body(body).twist;
-            sum += *x * twist.velocity.x + *y * twist.velocity.y + *angle * twist.omega;
-        }
-        sum
-    }
 }
 
 impl Force for DriveLimit {
@@ -104,9 +94,8 @@ impl Force for DriveLimit {
         effort: S,
         mut out: impl Wrenches<S>,
     ) {
-        for (body, [x, y, torque]) in e.coordinate.gradient.into_iter().enumerate() {
-            let force = Vec2::new(x, y).scale(effort);
-            out.put(0, body, Wrench { force, torque: torque * effort });
+        for (body, wrench) in e.coordinate.wrenches(effort).into_iter().enumerate() {
+            out.put(0, body, wrench);
         }
     }
 
@@ -127,7 +116,7 @@ impl Force for DriveLimit {
 
     fn results<S: Real>(e: &DriveLimit<S>, at: &Situation<'_, S>, out: &mut [S]) {
         let effort = e.effort(at);
-        out.copy_from_slice(&[effort, effort * e.rate(at), e.most()]);
+        out.copy_from_slice(&[effort, effort * at.rate(&e.coordinate), e.most()]);
     }
 
     fn arms<S: Real>(e: &DriveLimit<S>, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {

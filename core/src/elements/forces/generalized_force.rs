@@ -7,7 +7,7 @@
 use crate::elements::{
     element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation, Wrenches,
 };
-use crate::math::{Listed, Real, Vec2, Wrench};
+use crate::math::{Listed, Real};
 
 element! {
     /// Generalized force: an effort on a position quantity. A positive effort increases the
@@ -30,10 +30,8 @@ impl Force for GeneralizedForce {
     }
 
     fn action<S: Real>(e: &GeneralizedForce<S>, _: &Situation<'_, S>, mut out: impl Wrenches<S>) {
-        for (body, slopes) in e.coordinate.gradient.into_iter().enumerate() {
-            let [x, y, torque] = slopes;
-            let force = Vec2::new(x, y).scale(e.value);
-            out.put(0, body, Wrench { force, torque: torque * e.value });
+        for (body, wrench) in e.coordinate.wrenches(e.value).into_iter().enumerate() {
+            out.put(0, body, wrench);
         }
     }
 

@@ -106,12 +106,7 @@ impl<S: Real> LooseBelt<S> {
 
     /// The rate of Φ.
     fn sliding(&self, at: &Situation<'_, S>) -> S {
-        let mut sum = S::zero();
-        for (body, [x, y, angle]) in self.coordinate.gradient.iter().enumerate() {
-            let twist = at.body(body).twist;
-            sum -= *x * twist.velocity.x + *y * twist.velocity.y + *angle * twist.omega;
-        }
-        sum
+        -at.rate(&self.coordinate)
     }
 
     /// The largest |λ| of a belt that slips.
@@ -168,9 +163,8 @@ impl<S: Real> LooseBelt<S> {
 
     /// Puts the force with which the strands differ, as an effort along Φ.
     fn put(&self, part: usize, effort: S, out: &mut impl Wrenches<S>) {
-        for (body, [x, y, torque]) in self.coordinate.gradient.into_iter().enumerate() {
-            let force = -Vec2::new(x, y).scale(effort);
-            out.put(part, body, Wrench { force, torque: -(torque * effort) });
+        for (body, wrench) in self.coordinate.wrenches(-effort).into_iter().enumerate() {
+            out.put(part, body, wrench);
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::elements::{
     Group, Kind, Measured, Nature, Part, ResultQuantity, SceneSymbol, Situation, Source, Wrenches,
 };
 use crate::expression::Tape;
-use crate::math::{Listed, Real, ShortArray, Vec2, Wrench};
+use crate::math::{Listed, Real, ShortArray};
 
 /// A joint with play.
 #[derive(Clone, Debug)]
@@ -100,9 +100,8 @@ impl Force for Play {
 
     fn action<S: Real>(e: &Play<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         let effort = e.effort(at);
-        for (body, [x, y, torque]) in e.coordinate.gradient.into_iter().enumerate() {
-            let force = Vec2::new(x, y).scale(effort);
-            out.put(0, body, Wrench { force, torque: torque * effort });
+        for (body, wrench) in e.coordinate.wrenches(effort).into_iter().enumerate() {
+            out.put(0, body, wrench);
         }
     }
 

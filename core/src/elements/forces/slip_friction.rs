@@ -11,7 +11,7 @@ use crate::elements::{
     ResultQuantity, Situation, Wrenches,
 };
 use crate::expression::Tape;
-use crate::math::{Real, Vec2, Wrench};
+use crate::math::{Real, Wrench};
 
 element! {
     /// Friction of a joint that may slip.
@@ -27,16 +27,6 @@ element! {
     }
 }
 
-/// The rate of the slip, m/s.
-fn speed<S: Real>(e: &SlipFriction<S>, at: &Situation<'_, S>) -> S {
-    let mut sum = S::zero();
-    for (body, [x, y, angle]) in e.coordinate.gradient.iter().enumerate() {
-        let twist = at.body(body).twist;
-        sum += *x * twist.velocity.x + *y * twist.velocity.y + *angle * twist.omega;
-    }
-    sum
-}
-
 /// A factor times the load, and its derivatives with respect to the reaction.
 fn times_load<S: Real>(factor: S, at: &Situation<'_, S>) -> (S, Wrench<S>) {
     let (force, zero) = (at.reaction.force, S::zero());
@@ -48,7 +38,7 @@ fn times_load<S: Real>(factor: S, at: &Situation<'_, S>) -> (S, Wrench<S>) {
 
 /// The effort along the slip, and its derivatives with respect to the reaction.
 fn effort<S: Real>(e: &SlipFriction<S>, at: &Situation<'_, S>) -> (S, Wrench<S>) {
-    let (one, zero, speed) = (S::one(), S::zero(), speed(e, at));
+    let (one, zero, speed) = (S::one(), S::zero(), at.rate(&e.coordinate));
     let sense = match at.mode {
         mode if mode.holds() => return (-at.multiplier, Wrench::zero()),
         Mode::Slides(sign) => S::constant(sign),
@@ -79,9 +69,8 @@ impl Force for SlipFriction {
         effort: S,
         mut out: impl Wrenches<S>,
     ) {
-        for (body, [x, y, torque]) in e.coordinate.gradient.into_iter().enumerate() {
-            let force = Vec2::new(x, y).scale(effort);
-            out.put(0, body, Wrench { force, torque: torque * effort });
+        for (body, wrench) in e.coordinate.wrenches(effort).into_iter().enumerate() {
+            out.put(0, body, wrench);
         }
     }
 
@@ -106,7 +95,7 @@ impl Force for SlipFriction {
     }
 
     fn threshold<S: Real>(e: &SlipFriction<S>, at: &Situation<'_, S>) -> S {
-        speed(e, at)
+        at.rate(&e.coordinate)
     }
 
     fn limit<S: Real>(e: &SlipFriction<S>, at: &Situation<'_, S>) -> (S, Wrench<S>) {

@@ -17,7 +17,7 @@ use crate::elements::{
     Wrenches,
 };
 use crate::expression::Tape;
-use crate::math::{Listed, Local, Real, Vec2, Wrench};
+use crate::math::{Listed, Local, Real};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 element! {
@@ -53,12 +53,7 @@ const SIGNS: [f64; 2] = [1.0, -1.0];
 
 /// s and ṡ.
 fn coordinate<S: Real>(of: &Acted<S>, at: &Situation<'_, S>) -> [S; 2] {
-    let mut rate = S::zero();
-    for (body, [x, y, angle]) in of.gradient.into_iter().enumerate() {
-        let twist = at.body(body).twist;
-        rate += x * twist.velocity.x + y * twist.velocity.y + angle * twist.omega;
-    }
-    [of.of.value(&at.i().pose, &at.j().pose), rate]
+    [of.of.value(&at.i().pose, &at.j().pose), at.rate(of)]
 }
 
 /// The limits that exist, each with its index in [`SIGNS`] and its value.
@@ -146,10 +141,8 @@ impl Force for Stop {
 
     fn action<S: Real>(e: &Stop<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         for (part, effort) in efforts(e, at).into_iter().enumerate() {
-            for (body, slopes) in e.coordinate.gradient.into_iter().enumerate() {
-                let [x, y, torque] = slopes;
-                let force = Vec2::new(x, y).scale(effort);
-                out.put(part, body, Wrench { force, torque: torque * effort });
+            for (body, wrench) in e.coordinate.wrenches(effort).into_iter().enumerate() {
+                out.put(part, body, wrench);
             }
         }
     }
