@@ -40,7 +40,8 @@ impl Mode {
 pub enum Behaviour<S> {
     /// The force slides and sticks; events `stick` and `slip`.
     Sticks,
-    /// The contact has impacts and may rest; events `hit`, `release`, `graze` and `collapse`.
+    /// The contact has impacts and may rest; events `hit`, `release`, `graze`, `collapse` and
+    /// `paradox`.
     Impacts {
         /// Coefficient of restitution, 0 to 1.
         restitution: S,
@@ -63,7 +64,7 @@ impl<S> Behaviour<S> {
     pub fn events(&self) -> &'static [&'static str] {
         match self {
             Self::Sticks => &["stick", "slip"],
-            Self::Impacts { .. } => &["hit", "release", "graze", "collapse"],
+            Self::Impacts { .. } => &["hit", "release", "graze", "collapse", "paradox"],
             Self::Compliant { .. } => &["hit", "release", "graze"],
         }
     }

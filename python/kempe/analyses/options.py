@@ -339,6 +339,9 @@ class Dynamics(Analysis):
         restitution_law: Restitution where contacts have friction or act simultaneously.
             "poisson": the impulse of expansion over that of compression. "newton": the rate
             after the impact over that before it; the run ends where this would gain energy.
+        jam: Behaviour where no reaction agrees with the friction of a contact that slides
+            (Painlevé's paradox). "refuse" ends the run with an error. "impact" takes the impact
+            without collision that ends the sliding, if it is the only one.
         output: "steps" reports the steps of the solver, which is also the default without
             `output_step`.
         after: State at which the analysis starts: "start", or the name of an earlier analysis
@@ -377,6 +380,7 @@ class Dynamics(Analysis):
     singularity: Literal["stop", "pass"] = "stop"
     impacts: Literal["sequential", "simultaneous"] = "sequential"
     restitution_law: Literal["poisson", "newton"] = "poisson"
+    jam: Literal["refuse", "impact"] = "refuse"
     output: Literal["steps"] | None = None
     after: str | None = None
     events: Events | None = None
@@ -400,6 +404,7 @@ class Dynamics(Analysis):
         "singularity": ("stop", "pass"),
         "impacts": ("sequential", "simultaneous"),
         "restitution_law": ("poisson", "newton"),
+        "jam": ("refuse", "impact"),
         "output": ("steps",),
         "after": "name",
         "events": "events",

@@ -9,9 +9,9 @@ use super::clock::Clock;
 use super::failure::{Failure, Reason};
 use super::guard::{self, Guard};
 use super::model_cache::ModelCache;
-use super::modes::{self, StateAt};
+use super::modes::{self, Ended, StateAt};
 use super::option_checks::check_lengths;
-use super::options::{ImpactOrder, Options, RestitutionLaw};
+use super::options::{ImpactLaws, Options};
 use super::passages::Passage;
 use super::planned_events::{conditions, planned, watched, Effect, Planned};
 use super::run::{run_phase, Phase, PhaseEnd, Progress};
@@ -96,7 +96,11 @@ pub(super) struct PhasedRun {
     #[serde(skip)]
     conditions: Arc<Vec<Option<Condition>>>,
     pub at: Progress,
-    impacts: (ImpactOrder, RestitutionLaw),
+    laws: ImpactLaws,
+    /// A contact at which a friction paradox ended the phase before.
+    lost: Vec<usize>,
+    /// The kinds of doubts that the run has told.
+    told: [bool; 3],
     stall: Stall,
     pub guard: Guard,
 }
@@ -119,7 +123,9 @@ impl PhasedRun {
             own,
             conditions: Arc::default(),
             at: Progress::begin(base, start, options, run),
-            impacts: (options.impacts, options.restitution_law),
+            laws: options.impact_laws(),
+            lost: Vec::new(),
+            told: [false; 3],
             stall: Stall::default(),
             guard: Guard::new(usual_energy(base), options),
         };
@@ -185,7 +191,7 @@ impl PhasedRun {
             let phase = Phase { model, cache, project_velocities: holds(&self.setting) };
             let outcome = run_phase(phase, watched, &mut self.at, options, run, watch);
             self.guard.look((model, cache), run, outcome.is_ok());
-            match outcome? {
+            match outcome.or_else(|failure| self.lose_contact(base.0, failure))? {
                 PhaseEnd::Reached => {
                     run.reached = true;
                     return Ok(());
@@ -224,6 +230,48 @@ impl PhasedRun {
         Ok(())
     }
 
+    /// Ends a phase where the normal force of a contact that slides grows without bound.
+    ///
+    /// # Errors
+    /// The failure of the phase where it has another cause.
+    fn lose_contact(
+        &mut self,
+        base: &Model,
+        failure: Box<Failure>,
+    ) -> Result<PhaseEnd, Box<Failure>> {
+        if !matches!(failure.reason, Reason::Singular { .. } | Reason::Integration { .. }) {
+            return Err(failure);
+        }
+        self.lost = self.lost_contacts(base, &|_| true);
+        if self.lost.is_empty() {
+            Err(failure)
+        } else {
+            Ok(PhaseEnd::Event)
+        }
+    }
+
+    /// The forces whose modes end here.
+    fn ended(&self) -> Vec<usize> {
+        let of_force = |index: &usize| match self.events[*index].effect {
+            Effect::Mode { force, .. } => Some(force),
+            _ => None,
+        };
+        self.at.fired.iter().filter_map(of_force).list()
+    }
+
+    /// The contacts that rest and slide in a friction paradox, among those with friction `of` some forces.
+    fn lost_contacts(&mut self, base: &Model, of: &dyn Fn(usize) -> bool) -> Vec<usize> {
+        let Self { at, setting, .. } = self;
+        let modes = setting.modes.iter().filter(|own| of(own.force));
+        if !modes.clone().any(|own| matches!(own.mode, Mode::Slides(_))) {
+            return Vec::new();
+        }
+        let Ok(open) = setting.open(base) else { return Vec::new() };
+        let place = StateAt::new(&*open, at.t, &mut at.y);
+        let lost = modes.map(|own| modes::lost(&open, &place, &setting.modes, own));
+        lost.filter_map(|found| found.ok().flatten()).list()
+    }
+
     /// Goes from a phase to the next one. Returns whether the run continues.
     fn pass(
         &mut self,
@@ -236,6 +284,14 @@ impl PhasedRun {
         let flow = self.take_effect(base, options, act, (run, &mut passage))?;
         if flow == Flow::Continue && modes::has_modes(base) {
             self.stall.look(base, self.at.t, &self.setting)?;
+            // where its force grows without bound, sliding ends at a speed or a force that is not zero, or at no event
+            let (ended, none) = (self.ended(), self.at.fired.is_empty());
+            if none || !ended.is_empty() {
+                let partner = |force: usize| base.forces[force].partner;
+                let own = |force, k| k == force || partner(k) == Some(force);
+                let of = |force| none || ended.iter().any(|k| own(force, *k));
+                self.lost = self.lost_contacts(base, &of);
+            }
             self.settle(base, (run, &mut passage))?;
         }
         self.at.jumped &= passage.impacts.is_empty() && !passage.replaced;
@@ -267,17 +323,13 @@ impl PhasedRun {
         base: &Model,
         (run, passage): (&mut Run, &mut Passage),
     ) -> Result<(), Box<Failure>> {
-        let Self { events, at, setting, impacts, stall, .. } = self;
+        let fired = self.ended();
+        let Self { events, at, setting, laws, lost, stall, told, .. } = self;
         let open = setting.open(base).map_err(|problems| impossible(&problems, at.t))?;
-        let of_force = |index: &usize| match events[*index].effect {
-            Effect::Mode { force, .. } => Some(force),
-            _ => None,
-        };
-        let fired: Vec<usize> = at.fired.iter().filter_map(of_force).list();
         let (t, before) = (at.t, at.y.clone());
         let mut place = StateAt::new(&*open, t, &mut at.y);
-        let ended = (fired.as_slice(), stall.ceased.as_slice());
-        let settled = modes::settle(&open, &mut place, &setting.modes, ended, *impacts)?;
+        let ended = Ended { fired, ceased: stall.ceased.clone(), lost: std::mem::take(lost) };
+        let settled = modes::settle(&open, &mut place, &setting.modes, &ended, *laws)?;
         stall.note(&setting.modes, &settled.modes);
         let index = |force: usize, of: usize| {
             let wanted = Effect::Mode { force, place: of };
@@ -290,8 +342,14 @@ impl PhasedRun {
             run.events[index].impulses.extend(&settled.impulses);
         }
         for (k, of) in &settled.changed {
-            run.add_event(&base.layout, index(*k, *of), t, &before);
+            let index = index(*k, *of);
+            run.add_event(&base.layout, index, t, &before);
+            if *of == modes::PARADOX {
+                let index = run.listed(index);
+                run.events[index].impulses.extend(&settled.impulses);
+            }
         }
+        run.doubts.extend(settled.doubts(base, t, told));
         setting.modes = settled.modes;
         (passage.impacts, passage.collapsed) = (settled.impacts, settled.collapsed);
         passage.couples |= settled.couples;

@@ -5,6 +5,7 @@ use super::law_jump::{LawJump, SMOOTH};
 use super::no_mass;
 use super::run_results::Run;
 use crate::analyses::mobility::dependent;
+use crate::analyses::rigid::is_rigid;
 use crate::elements::Equation;
 use crate::expression::TABLE_ENDS;
 use crate::integrate::Cause;
@@ -88,6 +89,12 @@ pub enum Reason {
 /// Mismatch of lengths, relative to the size, above which two motions past a change point are distinct.
 const MEET: f64 = 1e-8;
 
+/// The contact that rests by a row.
+fn contact_at(model: &Model, row: usize) -> Option<usize> {
+    let rests = |k: &usize| model.forces[*k].held_row == Some(row) && is_rigid(model, *k);
+    (0..model.forces.len()).find(rests)
+}
+
 impl From<Reason> for Box<Failure> {
     fn from(reason: Reason) -> Self {
         Self::new(Failure { reason, run: Run::default() })
@@ -95,6 +102,17 @@ impl From<Reason> for Box<Failure> {
 }
 
 impl Failure {
+    /// Failure of a contact whose sliding has no solution.
+    pub(super) fn paradox(model: &Model, t: f64, contact: usize) -> Box<Self> {
+        let name = model.forces[contact].name.clone();
+        let message = format!(
+            "friction paradox (Painlevé) in contact {name} at t = {t:.6} s: no normal force agrees with the friction that it \
+             causes, so that the contact jams; reduce its friction, give it a stiffness in place of restitution, or \
+             use jam = \"impact\""
+        );
+        Reason::Singular { t, name, message }.into()
+    }
+
     /// Failure of a contact beyond the end of its curve.
     pub(super) fn off_the_curve(t: f64, message: &str) -> Box<Self> {
         let message = format!("{message} at t = {t:.6} s");
@@ -125,6 +143,9 @@ impl Failure {
                 (name(row), message)
             }
             Breakdown::Beside { row, left } => (name(row), beside(model, t, q, (row, left))),
+            Breakdown::Reaction(row) if contact_at(model, row).is_some() => {
+                return Self::paradox(model, t, contact_at(model, row).unwrap_or_default());
+            }
             Breakdown::Reaction(row) => {
                 let message = format!(
                     "friction paradox (Painlevé) in joint {} at t = {t:.6} s: no reaction agrees with the \

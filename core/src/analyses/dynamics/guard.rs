@@ -346,7 +346,10 @@ pub(super) fn end(guard: &Guard, model: &Model, mut run: Run) -> Result<Run, Box
         return Ok(run);
     }
     match guard.verdict(&|k| owner(model, k), &run) {
-        Ok(doubts) => Ok(Run { doubts, ..run }),
+        Ok(doubts) => {
+            run.doubts.extend(doubts);
+            Ok(run)
+        }
         Err(reason) => {
             (run.reached, run.stopped_by) = (false, None);
             Err(Box::new(Failure { reason, run }))

@@ -54,6 +54,28 @@ pub enum RestitutionLaw {
     Newton,
 }
 
+/// The policy where no reaction agrees with the friction of a contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Jam {
+    /// Stop with an error that names the contact.
+    #[default]
+    Refuse,
+    /// An impact without collision ends the sliding, if it is unique.
+    Impact,
+}
+
+/// The laws of impacts.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct ImpactLaws {
+    /// The contacts that act.
+    pub order: ImpactOrder,
+    /// The meaning of the restitution.
+    pub restitution: RestitutionLaw,
+    /// The policy at a friction paradox.
+    pub jam: Jam,
+}
+
+words!(Jam { "refuse" => Self::Refuse, "impact" => Self::Impact });
 words!(ImpactOrder { "sequential" => Self::Sequential, "simultaneous" => Self::Simultaneous });
 words!(RestitutionLaw { "poisson" => Self::Poisson, "newton" => Self::Newton });
 words!(Output { "steps" => Self::Steps });
@@ -90,6 +112,10 @@ options! {
         /// expansion over that of compression. "newton": the rate after the impact over that before
         /// it; the run ends where this would gain energy.
         restitution_law: RestitutionLaw = RestitutionLaw::Poisson,
+        /// Behaviour where no reaction agrees with the friction of a contact that slides (Painlevé's
+        /// paradox). "refuse" ends the run with an error. "impact" takes the impact without collision
+        /// that ends the sliding, if it is the only one.
+        jam: Jam = Jam::Refuse,
         /// "steps" reports the steps of the solver, which is also the default without
         /// `output_step`.
         output: Option<Output> = None,
@@ -144,6 +170,11 @@ pub fn most_steps(model: &Model) -> usize {
 }
 
 impl Options {
+    /// The laws of impacts.
+    pub(super) fn impact_laws(&self) -> ImpactLaws {
+        ImpactLaws { order: self.impacts, restitution: self.restitution_law, jam: self.jam }
+    }
+
     /// The classical options: Dormand–Prince with Baumgarte's α = 10, β = 200.
     pub fn classical(t_end: f64) -> Self {
         Self {

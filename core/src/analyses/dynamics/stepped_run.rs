@@ -157,7 +157,8 @@ impl<M: Deref<Target = Model>> SteppedRun<M> {
         let base = base.map_or((model, self.prepared.cache()), |(model, own)| (model, own));
         now.course.proceed(base, &self.options, &mut run, (&mut watch, &mut act))?;
         if run.reached || run.stopped_by.is_some() {
-            run.doubts = now.course.guard.judge_part(base.0, &run)?;
+            let doubts = now.course.guard.judge_part(base.0, &run)?;
+            run.doubts.extend(doubts);
         }
         now.course.at.pause(&run);
         now.largest_energy = run.largest_energy;

@@ -18,47 +18,18 @@
 //! the approach.
 
 use super::super::failure::{Failure, Reason};
-use super::super::model_cache::ModelCache;
 use super::super::options::RestitutionLaw;
-use super::super::redundant_rows::workspace_at;
-use super::companions;
+use super::closed_contacts::Contacts;
 use super::impact::{driver_work, Impact, Restitutions};
 use super::place::{largest, StateAt};
-use crate::elements::Mode;
+use crate::equations::energy;
 use crate::equations::kinematics::Motions;
-use crate::equations::{constraints, energy};
 use crate::math::Listed;
-use crate::model::{ForceMode, Model};
+use crate::model::Model;
 use crate::solve::complementarity;
 
 /// Growth of the kinetic energy that counts as a rounding error.
 const GROWS: f64 = 1e-12;
-
-/// The impulses of one direction of a contact.
-struct ImpactDirection {
-    force: usize,
-    /// Its row in the closed model, and the sign of its coordinate.
-    row: usize,
-    sign: f64,
-    /// The rate before the impact.
-    rate: f64,
-    /// The jump of the velocities and the impulses of the joints for a unit impulse.
-    jump: Vec<f64>,
-    joints: Vec<f64>,
-    /// The unit of its impulse.
-    unit: f64,
-    /// For friction: the place of its contact among the normal directions, and μ.
-    of: Option<(usize, f64)>,
-}
-
-/// The closed contacts of a mechanism at an instant.
-struct Contacts {
-    closed: Model,
-    all: Vec<ImpactDirection>,
-    normals: usize,
-    /// D in units of the impulses.
-    compliance: Vec<Vec<f64>>,
-}
 
 /// Computes the impact of these contacts, each with its restitution.
 ///
@@ -70,7 +41,20 @@ pub(super) fn strike(
     contacts: &[usize],
     (own, law): (Restitutions<'_>, RestitutionLaw),
 ) -> Result<Impact, Box<Failure>> {
-    let found = Contacts::new(model, place, contacts)?;
+    resolve(model, place, Contacts::new(model, place, contacts)?, (own, law))
+}
+
+/// Computes the impact of closed contacts.
+///
+/// # Errors
+/// As for [`strike`].
+pub(super) fn resolve(
+    model: &Model,
+    place: &StateAt<'_>,
+    found: Contacts,
+    (own, law): (Restitutions<'_>, RestitutionLaw),
+) -> Result<Impact, Box<Failure>> {
+    let contacts: Vec<usize> = found.all[..found.normals].iter().map(|of| of.force).list();
     let [q, v, _] = place.state(model);
     let kinetic = |v: &[f64]| energy::kinetic(model, &Motions::at(&model.layout, q, v));
     let before = kinetic(v);
@@ -97,7 +81,7 @@ pub(super) fn strike(
         // drivers may add energy
         let taken = loss + driver_work(model, place.t, q, &found.rows(&impulses));
         if taken >= -GROWS * before.max(energy) {
-            return Ok(found.impact(contacts, &impulses, (after, loss, common)));
+            return Ok(found.impact(&contacts, &impulses, (after, loss, common)));
         }
         if law == RestitutionLaw::Newton {
             break;
@@ -111,53 +95,6 @@ pub(super) fn strike(
 }
 
 impl Contacts {
-    fn new(model: &Model, place: &StateAt<'_>, contacts: &[usize]) -> Result<Self, Box<Failure>> {
-        let rubs: Vec<usize> = contacts.iter().filter_map(|k| model.forces[*k].partner).list();
-        let sides = place.sides(model, contacts);
-        let held = contacts.iter().zip(&sides).map(|(k, side)| (*k, *side));
-        let held = held.chain(rubs.iter().map(|k| (*k, 0.0)));
-        let modes = held.map(|(k, side)| ForceMode::new(k, Mode::Holds(side))).list();
-        let closed = model.in_modes(&modes).allowing_redundancy();
-        let (t, [q, v, z]) = (place.t, place.state(model));
-        let motions = Motions::at(&closed.layout, q, v);
-        let mut entries = vec![0.0; closed.layout.n_entries];
-        constraints::jacobian(&closed, &motions, t, &mut entries);
-        let mut workspace = workspace_at((model, &ModelCache::default()), t, [q, v, z]);
-        let rates = [place.gap_rates(model, contacts), place.thresholds(model, &rubs)].concat();
-        let (mut all, mut gradients) = (Vec::new(), Vec::new());
-        let forces = contacts.iter().copied().zip(sides.iter().map(|side| -side.signum()));
-        let forces = forces.chain(rubs.iter().map(|k| (*k, 1.0)));
-        for ((force, sign), rate) in forces.zip(rates) {
-            let row = closed.forces[force].held_row.expect("it holds");
-            let (mut unit, mut gradient) =
-                (vec![0.0; closed.layout.n_rows], vec![0.0; model.layout.n_q]);
-            unit[row] = sign;
-            constraints::add_transposed(&closed, &entries, &unit, &mut gradient);
-            let still = vec![0.0; model.layout.n_rows];
-            let jump = workspace.jump_by(model, t, q, (&gradient, &still));
-            let [jump, joints] =
-                jump.map_err(|breakdown| Failure::at_state(model, t, q, breakdown))?;
-            let of = companions::contact_of(model, force).map(|contact| {
-                let at = contacts.iter().position(|k| *k == contact).expect("its contact");
-                (at, model.forces[force].element.coefficients()[0])
-            });
-            all.push(ImpactDirection { force, row, sign, rate, jump, joints, unit: 1.0, of });
-            gradients.push(gradient);
-        }
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let mut compliance: Vec<Vec<f64>> =
-            gradients.iter().map(|w| all.iter().map(|own| dot(w, &own.jump)).list()).list();
-        // the units make the diagonal 1, except where a driver holds the direction
-        let most = (0..all.len()).map(|k| compliance[k][k]).fold(0.0, f64::max);
-        for (k, own) in all.iter_mut().enumerate() {
-            own.unit = 1.0 / compliance[k][k].max(1e-24 * most).sqrt();
-        }
-        for (i, row) in compliance.iter_mut().enumerate() {
-            row.iter_mut().zip(&all).for_each(|(x, own)| *x *= own.unit * all[i].unit);
-        }
-        Ok(Self { closed, all, normals: contacts.len(), compliance })
-    }
-
     /// The impulses of all directions. `e` is the restitution of a normal direction.
     fn impulses(&self, e: &dyn Fn(usize) -> f64, law: RestitutionLaw) -> Option<Vec<f64>> {
         let rates: Vec<f64> = self.all.iter().map(|own| own.rate * own.unit).list();
@@ -166,21 +103,25 @@ impl Contacts {
         let none = vec![0.0; self.all.len()];
         let part = |(k, rate): (usize, &f64)| if k < self.normals { -rate.min(0.0) } else { 0.0 };
         let rest = |rates: &[f64]| -> Vec<f64> { rates.iter().enumerate().map(part).list() };
+        let compress = |rates: &[f64]| match &self.compression {
+            Some(known) => Some(known.clone()),
+            None => self.solve(rates, &none, &rest(rates)),
+        };
         let mut sum = match law {
             RestitutionLaw::Newton => {
                 let mut wanted = rates;
                 for (k, rate) in wanted[..self.normals].iter_mut().enumerate() {
                     *rate *= if *rate < 0.0 { 1.0 + e(k) } else { 1.0 };
                 }
-                self.solve(&wanted, &none, &rest(&wanted))?
+                compress(&wanted)?
             }
             RestitutionLaw::Poisson => {
-                let compression = self.solve(&rates, &none, &rest(&rates))?;
+                let compression = compress(&rates)?;
                 let least = |k: usize| if k < self.normals { e(k) * compression[k] } else { 0.0 };
                 let given: Vec<f64> = (0..self.all.len()).map(least).list();
                 let start = compression.iter().zip(&given).map(|(a, b)| a + b).list();
                 let more = match given.iter().all(|x| *x == 0.0) {
-                    true => none,
+                    true => none.clone(),
                     false => self.solve(&self.after(&rates, &start), &given, &none)?,
                 };
                 start.iter().zip(&more).map(|(a, b)| a + b).list()
@@ -188,12 +129,6 @@ impl Contacts {
         };
         sum.iter_mut().zip(&self.all).for_each(|(x, own)| *x *= scale * own.unit);
         Some(sum)
-    }
-
-    /// The rates after impulses.
-    fn after(&self, rates: &[f64], impulses: &[f64]) -> Vec<f64> {
-        let of = |row: &Vec<f64>| row.iter().zip(impulses).map(|(d, x)| d * x).sum::<f64>();
-        rates.iter().zip(&self.compliance).map(|(rate, row)| rate + of(row)).list()
     }
 
     /// The impulses that complement these rates, as the limit for rates with a small part of `rest`. Friction may also use
@@ -226,18 +161,6 @@ impl Contacts {
         let z = complementarity::solve(&a, &b, &limit)?;
         let of = |k: usize| if k < n { z[k] } else { z[k] - z[k + m] };
         Some((0..n + m).map(of).list())
-    }
-
-    /// The impulses of all rows of the closed model.
-    fn rows(&self, impulses: &[f64]) -> Vec<f64> {
-        let mut found = vec![0.0; self.closed.layout.n_rows];
-        for (own, x) in self.all.iter().zip(impulses) {
-            found.iter_mut().zip(&own.joints).for_each(|(sum, joint)| *sum += x * joint);
-        }
-        for (own, x) in self.all.iter().zip(impulses) {
-            found[own.row] = -own.sign * x;
-        }
-        found
     }
 
     fn impact(

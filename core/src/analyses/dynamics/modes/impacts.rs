@@ -28,13 +28,13 @@
 
 use super::super::failure::{Failure, Reason};
 use super::super::model_cache::ModelCache;
-use super::super::options::{ImpactOrder, RestitutionLaw};
+use super::super::options::{ImpactLaws, ImpactOrder};
 use super::super::passages::Struck;
 use super::super::redundant_rows::workspace_at;
 use super::dependence::holders;
 use super::impact::{driver_work, Impact, Restitutions};
 use super::place::{mode_of, with_modes, StateAt, STILL};
-use super::{companions, friction_impact};
+use super::{companions, friction_impact, jam};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::energy;
 use crate::equations::kinematics::Motions;
@@ -93,7 +93,7 @@ pub(super) fn resolve(
     model: &Model,
     place: &mut StateAt<'_>,
     touching: &[usize],
-    (order, law): (ImpactOrder, RestitutionLaw),
+    ImpactLaws { order, restitution: law, .. }: ImpactLaws,
 ) -> Result<Hits, Box<Failure>> {
     let mut found = Hits::default();
     let mut seen = vec![Approaches::default(); touching.len()];
@@ -135,6 +135,27 @@ pub(super) fn resolve(
     found.hits.sort_unstable();
     found.hits.dedup();
     Ok(found)
+}
+
+/// Ends a friction paradox of contacts that touch, of which some are lost, by an impact without collision, and adds it to
+/// the others. Returns its contacts; None if no contact has to jump.
+pub(super) fn jam(
+    model: &Model,
+    place: &mut StateAt<'_>,
+    contacts: (&[usize], &[usize]),
+    laws: ImpactLaws,
+    found: &mut Hits,
+) -> Result<Option<Vec<usize>>, Box<Failure>> {
+    let own = |k: usize| restitution(model, k).0;
+    let impact = jam::strike(model, place, contacts, (&own, laws.restitution))?;
+    let Some(impact) = impact else { return Ok(None) };
+    if found.impulses.is_empty() {
+        found.impulses = vec![0.0; model.n_multipliers()];
+    }
+    impact.apply(model, place, &mut found.impulses);
+    found.impacts.push(impact.struck(false));
+    found.couples = true;
+    Ok(Some(impact.contacts))
 }
 
 /// A driver that holds the coordinate of a contact.

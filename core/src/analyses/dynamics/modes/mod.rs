@@ -7,41 +7,57 @@
 //! | `place` | a state at which modes are determined |
 //! | `impact` | one impact: its impulses and the velocities after it |
 //! | `impacts` | jumps of velocities where contacts hit |
+//! | `closed_contacts` | closed contacts, and the rates that impulses in their directions cause |
 //! | `companions` | friction of contacts that press |
 //! | `dependence` | which forces can hold together, and the modes of the others |
 //! | `friction_impact` | impacts of contacts with friction, and of all closed contacts together |
 //! | `holding` | contacts that rest and friction that sticks |
+//! | `jam` | impacts without collision, which end a friction paradox |
+//! | `sliding_contacts` | whether the motion with contacts that slide is unique |
 //! | `taking_part` | the mechanism without the contacts that are apart |
 
 mod at_rest;
+mod closed_contacts;
 mod companions;
 mod dependence;
 mod friction_impact;
 mod holding;
 mod impact;
 mod impacts;
+mod jam;
 mod mode_events;
 mod place;
+mod sliding_contacts;
 mod taking_part;
 
 pub use at_rest::{can_stick, friction_modes};
 pub(in crate::analyses) use mode_events::{watched_mode, ModeFunction};
-pub(super) use mode_events::{COLLAPSE, GRAZE};
+pub(super) use mode_events::{COLLAPSE, GRAZE, PARADOX};
 pub(super) use place::{has_mode, is_contact, unit as gap_unit, StateAt};
+pub(super) use sliding_contacts::lost;
 
 use crate::math::Listed;
 use place::{largest, with_modes};
 
 use super::failure::{Failure, Reason};
-use super::options::{ImpactOrder, RestitutionLaw};
+use super::options::{ImpactLaws, Jam};
 use crate::elements::{Behaviour, Mode};
 use crate::model::{ForceMode, Model};
 use dependence::keep_closed;
 use impacts::Hits;
 use taking_part::{Settled, TakingPart};
 
-/// Determines the modes at a state, whose velocities jump where contacts hit. The forces `at_once` are those whose modes
-/// ended there, and those that have ceased to hold at the same time before. If `before` contains no modes, the run
+/// The forces whose modes ended where a phase ends.
+pub(super) struct Ended {
+    /// Those whose events ended it.
+    pub fired: Vec<usize>,
+    /// Those that have ceased to hold at the same time before.
+    pub ceased: Vec<usize>,
+    /// Contacts at which a friction paradox ended it.
+    pub lost: Vec<usize>,
+}
+
+/// Determines the modes at a state, whose velocities jump where contacts hit. If `before` contains no modes, the run
 /// begins.
 ///
 /// # Errors
@@ -50,14 +66,16 @@ pub(super) fn settle(
     model: &Model,
     place: &mut StateAt<'_>,
     before: &[ForceMode],
-    at_once: (&[usize], &[usize]),
-    law: (ImpactOrder, RestitutionLaw),
+    ended: &Ended,
+    laws: ImpactLaws,
 ) -> Result<Settled, Box<Failure>> {
     let touching = impacts::touching(model, place, before);
     let part = TakingPart::of(model, &touching);
     let own = (part.places(&touching), part.modes(before));
-    let at_once = (part.places(at_once.0), part.places(at_once.1));
-    let found = settle_part(&part.model, place, (&own.0, &own.1), (&at_once.0, &at_once.1), law)?;
+    let places = |forces: &Vec<usize>| part.places(forces);
+    let [fired, ceased, lost] = [&ended.fired, &ended.ceased, &ended.lost].map(places);
+    let ended = Ended { fired, ceased, lost };
+    let found = settle_part(&part.model, place, (&own.0, &own.1), &ended, laws)?;
     let mut settled = part.whole(model, found);
     let Settled { modes, hits, changed, .. } = &mut settled;
     for (old, new) in before.iter().zip(modes) {
@@ -78,19 +96,36 @@ fn settle_part(
     model: &Model,
     place: &mut StateAt<'_>,
     (touching, before): (&[usize], &[ForceMode]),
-    at_once: (&[usize], &[usize]),
-    law: (ImpactOrder, RestitutionLaw),
+    ended: &Ended,
+    laws: ImpactLaws,
 ) -> Result<Settled, Box<Failure>> {
     let fastest = largest(place.state(model)[1]);
-    let Hits { hits, impulses, impacts, couples, ended } =
-        impacts::resolve(model, place, touching, law)?;
-    let jumped = (!hits.is_empty()).then_some(fastest);
-    let mut modes = holding::decide(model, place, before, (touching, jumped), at_once)?;
+    let mut found = impacts::resolve(model, place, touching, laws)?;
+    let (mut jammed, mut lost) = (Vec::new(), ended.lost.as_slice());
+    let mut modes = loop {
+        let jumped = (!found.hits.is_empty() || !jammed.is_empty()).then_some(fastest);
+        let at_once = (ended.fired.as_slice(), ended.ceased.as_slice());
+        let decided = match lost {
+            [] => holding::decide(model, place, before, (touching, jumped), at_once),
+            [contact, ..] => Err(Failure::paradox(model, place.t, *contact)),
+        };
+        if decided.is_ok() || laws.jam == Jam::Refuse || jammed.len() >= touching.len() {
+            break decided?;
+        }
+        match impacts::jam(model, place, (touching, lost), laws, &mut found)? {
+            Some(contacts) => jammed.extend(contacts),
+            None => break decided?,
+        }
+        lost = &[];
+    };
     companions::check(model, place, &modes)?;
     keep_closed(model, place, touching, &mut modes);
+    let uniqueness = sliding_contacts::examine(model, place, touching, &modes)?;
+    let Hits { hits, impulses, impacts, couples, ended } = found;
     let collapsed = !ended.is_empty();
-    let changed = ended.into_iter().map(|k| (k, COLLAPSE)).list();
-    Ok(Settled { modes, hits, impulses, impacts, couples, collapsed, changed })
+    let ended = ended.into_iter().map(|k| (k, COLLAPSE));
+    let changed = ended.chain(jammed.into_iter().map(|k| (k, PARADOX))).list();
+    Ok(Settled { modes, hits, impulses, impacts, couples, collapsed, changed, uniqueness })
 }
 
 /// Refuses a start beyond a stop or contact with restitution, and a stop whose coordinate is held by drivers that no

@@ -12,6 +12,8 @@ use crate::model::{DriverSet, Model};
 pub const GRAZE: usize = 2;
 /// The place of the event at which a sequence of impacts without end is replaced by its limit.
 pub const COLLAPSE: usize = 3;
+/// The place of the event at which an impact without collision ends the sliding.
+pub const PARADOX: usize = 4;
 
 /// A function of a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
