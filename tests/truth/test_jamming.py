@@ -1,4 +1,4 @@
-"""Rods that slide where rigid bodies with friction have no solution, several, or forces without bound.
+"""Rods that slide where rigid bodies have no motion, several, or forces without bound.
 
 A rod with its mass centre at c = (x, y) from the end that slides has the normal force N = -b / A,
 with A = (1 + (x² + σ μ x y) / k²) / m, b = -g + ω² y, the sign σ of the sliding and the radius of
@@ -89,7 +89,7 @@ def test_expansion_after_an_impact_without_collision() -> None:
     now = sol(0.0)
     assert [now["rod.P.vx"], now["rod.P.vy"]] == pytest.approx([0, rate], abs=1e-11)
     impulse = sol.events["touch.paradox"].impulse("touch", on="rod")[0]
-    assert impulse == pytest.approx(compression + [along, normal], rel=1e-10)
+    assert impulse == pytest.approx(compression + np.array([along, normal]), rel=1e-10)
 
 
 def test_what_is_known_about_random_rods() -> None:
@@ -137,7 +137,7 @@ def test_several_motions_are_told() -> None:
 @pytest.mark.parametrize("scale", SCALES)
 def test_sliding_towards_a_paradox(scale: tuple[float, float]) -> None:
     """The normal force grows without bound within a finite time, which the equations give."""
-    (mass, size), mu, angle, spin, speed = scale, 3.63, 0.25, 1.44, -1.8
+    mu, angle, spin, speed, size = 3.63, 0.25, 1.44, -1.8, scale[1]
     time = np.sqrt(size / G)
     m, start = rod(mu, angle, spin, speed, scale)
 
@@ -180,5 +180,5 @@ def test_many_sliding_contacts_are_not_examined() -> None:
         m.contact(f"c{k}", f"b{k}.C", "ground.floor", radius=1, friction=0.1, restitution=0)
         at |= {f"b{k}.x": 3 * k, f"b{k}.y": 1, f"b{k}.angle": 0, f"b{k}.vx": 1, f"b{k}.vy": 0}
         at[f"b{k}.omega"] = 0
-    _, told = run(m, kp.assemble(m, set=at), t_end=0.01)
-    assert sum("not examined" in text for text in told) == 1
+    sol = kp.dynamics(m, kp.assemble(m, set=at), t_end=0.01)
+    assert ["not examined" in text for text in sol.statistics["notes"]] == [True]

@@ -46,6 +46,7 @@ pub struct PyRun {
     /// Balances beyond the limits that belong to the chosen method.
     #[pyo3(get)]
     doubts: Vec<String>,
+    notes: Vec<String>,
     statistics: core::Statistics,
     choice: Option<core::MethodChoice>,
     passed: Vec<core::Passed>,
@@ -140,6 +141,9 @@ impl PyRun {
             statistics["method"] = json!(choice.method);
             statistics["why"] = json!(choice.why);
         }
+        if !self.notes.is_empty() {
+            statistics["notes"] = json!(self.notes);
+        }
         if !self.passed.is_empty() {
             let one = |p: &core::Passed| json!({"t": p.t, "names": p.names, "slope": p.slope, "residual": p.residual});
             statistics["singular"] = self.passed.iter().map(one).collect();
@@ -214,6 +218,7 @@ impl PyRun {
             },
             message: message.to_string(),
             doubts: run.doubts,
+            notes: run.notes,
             statistics: run.statistics,
             choice: run.choice,
             passed: run.passed,

@@ -127,7 +127,7 @@ impl Ran {
                 |of| json!({ "name": of.name, "unit": of.unit, "condition": of.condition() })),
             "error": self.error.as_ref().map(|message| json!({ "message": message })),
             "not_unique": self.not_unique(run),
-            "remarks": self.record.remarks.iter().chain(&run.doubts).collect::<Vec<_>>(),
+            "remarks": self.record.remarks.iter().chain(&run.doubts).chain(&run.notes).collect::<Vec<_>>(),
         })
     }
 

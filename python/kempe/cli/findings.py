@@ -48,6 +48,8 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     console.print(Text(f"  {counts}, {work}, {cost['seconds']:.3g} s"))
     if "why" in cost:
         console.print(Text(f"  method {cost['method']}: {cost['why']}"))
+    for note in cost.get("notes", ()):
+        console.print(Text(f"  {note}"))
 
 
 def _shown(unit: str) -> Shown:

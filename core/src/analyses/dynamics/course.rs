@@ -12,8 +12,9 @@ use super::model_cache::ModelCache;
 use super::modes::{self, Ended, StateAt};
 use super::option_checks::check_lengths;
 use super::options::{ImpactLaws, Options};
+use super::paradoxes::Paradoxes;
 use super::passages::Passage;
-use super::planned_events::{conditions, planned, watched, Effect, Planned};
+use super::planned_events::{conditions, ended, planned, watched, Effect, Planned};
 use super::run::{run_phase, Phase, PhaseEnd, Progress};
 use super::run_results::{EventStates, Run};
 use super::setting::Setting;
@@ -97,10 +98,7 @@ pub(super) struct PhasedRun {
     conditions: Arc<Vec<Option<Condition>>>,
     pub at: Progress,
     laws: ImpactLaws,
-    /// A contact at which a friction paradox ended the phase before.
-    lost: Vec<usize>,
-    /// The kinds of doubts that the run has told.
-    told: [bool; 3],
+    paradoxes: Paradoxes,
     stall: Stall,
     pub guard: Guard,
 }
@@ -124,8 +122,7 @@ impl PhasedRun {
             conditions: Arc::default(),
             at: Progress::begin(base, start, options, run),
             laws: options.impact_laws(),
-            lost: Vec::new(),
-            told: [false; 3],
+            paradoxes: Paradoxes::default(),
             stall: Stall::default(),
             guard: Guard::new(usual_energy(base), options),
         };
@@ -191,7 +188,8 @@ impl PhasedRun {
             let phase = Phase { model, cache, project_velocities: holds(&self.setting) };
             let outcome = run_phase(phase, watched, &mut self.at, options, run, watch);
             self.guard.look((model, cache), run, outcome.is_ok());
-            match outcome.or_else(|failure| self.lose_contact(base.0, failure))? {
+            let Self { paradoxes, setting, at, .. } = self;
+            match outcome.or_else(|failure| paradoxes.end((base.0, setting), at, failure))? {
                 PhaseEnd::Reached => {
                     run.reached = true;
                     return Ok(());
@@ -230,48 +228,6 @@ impl PhasedRun {
         Ok(())
     }
 
-    /// Ends a phase where the normal force of a contact that slides grows without bound.
-    ///
-    /// # Errors
-    /// The failure of the phase where it has another cause.
-    fn lose_contact(
-        &mut self,
-        base: &Model,
-        failure: Box<Failure>,
-    ) -> Result<PhaseEnd, Box<Failure>> {
-        if !matches!(failure.reason, Reason::Singular { .. } | Reason::Integration { .. }) {
-            return Err(failure);
-        }
-        self.lost = self.lost_contacts(base, &|_| true);
-        if self.lost.is_empty() {
-            Err(failure)
-        } else {
-            Ok(PhaseEnd::Event)
-        }
-    }
-
-    /// The forces whose modes end here.
-    fn ended(&self) -> Vec<usize> {
-        let of_force = |index: &usize| match self.events[*index].effect {
-            Effect::Mode { force, .. } => Some(force),
-            _ => None,
-        };
-        self.at.fired.iter().filter_map(of_force).list()
-    }
-
-    /// The contacts that rest and slide in a friction paradox, among those with friction `of` some forces.
-    fn lost_contacts(&mut self, base: &Model, of: &dyn Fn(usize) -> bool) -> Vec<usize> {
-        let Self { at, setting, .. } = self;
-        let modes = setting.modes.iter().filter(|own| of(own.force));
-        if !modes.clone().any(|own| matches!(own.mode, Mode::Slides(_))) {
-            return Vec::new();
-        }
-        let Ok(open) = setting.open(base) else { return Vec::new() };
-        let place = StateAt::new(&*open, at.t, &mut at.y);
-        let lost = modes.map(|own| modes::lost(&open, &place, &setting.modes, own));
-        lost.filter_map(|found| found.ok().flatten()).list()
-    }
-
     /// Goes from a phase to the next one. Returns whether the run continues.
     fn pass(
         &mut self,
@@ -284,14 +240,8 @@ impl PhasedRun {
         let flow = self.take_effect(base, options, act, (run, &mut passage))?;
         if flow == Flow::Continue && modes::has_modes(base) {
             self.stall.look(base, self.at.t, &self.setting)?;
-            // where its force grows without bound, sliding ends at a speed or a force that is not zero, or at no event
-            let (ended, none) = (self.ended(), self.at.fired.is_empty());
-            if none || !ended.is_empty() {
-                let partner = |force: usize| base.forces[force].partner;
-                let own = |force, k| k == force || partner(k) == Some(force);
-                let of = |force| none || ended.iter().any(|k| own(force, *k));
-                self.lost = self.lost_contacts(base, &of);
-            }
+            let ended = ended(&self.events, &self.at.fired);
+            self.paradoxes.look((base, &self.setting), &mut self.at, &ended);
             self.settle(base, (run, &mut passage))?;
         }
         self.at.jumped &= passage.impacts.is_empty() && !passage.replaced;
@@ -323,33 +273,28 @@ impl PhasedRun {
         base: &Model,
         (run, passage): (&mut Run, &mut Passage),
     ) -> Result<(), Box<Failure>> {
-        let fired = self.ended();
-        let Self { events, at, setting, laws, lost, stall, told, .. } = self;
+        let fired = ended(&self.events, &self.at.fired);
+        let Self { events, at, setting, laws, paradoxes, stall, .. } = self;
         let open = setting.open(base).map_err(|problems| impossible(&problems, at.t))?;
         let (t, before) = (at.t, at.y.clone());
         let mut place = StateAt::new(&*open, t, &mut at.y);
-        let ended = Ended { fired, ceased: stall.ceased.clone(), lost: std::mem::take(lost) };
+        let ended = Ended { fired, ceased: stall.ceased.clone(), lost: paradoxes.take() };
         let settled = modes::settle(&open, &mut place, &setting.modes, &ended, *laws)?;
         stall.note(&setting.modes, &settled.modes);
         let index = |force: usize, of: usize| {
             let wanted = Effect::Mode { force, place: of };
             events.iter().position(|event| event.effect == wanted).expect("it was planned")
         };
-        for k in &settled.hits {
-            let index = index(*k, 0);
+        for (k, of) in settled.struck() {
+            let index = index(k, of);
             run.add_event(&base.layout, index, t, &before);
             let index = run.listed(index);
             run.events[index].impulses.extend(&settled.impulses);
         }
         for (k, of) in &settled.changed {
-            let index = index(*k, *of);
-            run.add_event(&base.layout, index, t, &before);
-            if *of == modes::PARADOX {
-                let index = run.listed(index);
-                run.events[index].impulses.extend(&settled.impulses);
-            }
+            run.add_event(&base.layout, index(*k, *of), t, &before);
         }
-        run.doubts.extend(settled.doubts(base, t, told));
+        paradoxes.tell(base, t, &settled, run);
         setting.modes = settled.modes;
         (passage.impacts, passage.collapsed) = (settled.impacts, settled.collapsed);
         passage.couples |= settled.couples;

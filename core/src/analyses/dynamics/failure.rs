@@ -89,6 +89,15 @@ pub enum Reason {
 /// Mismatch of lengths, relative to the size, above which two motions past a change point are distinct.
 const MEET: f64 = 1e-8;
 
+/// The friction paradox of a joint, at these positions.
+fn jammed(t: f64, joint: &str, positions: &str) -> String {
+    format!(
+        "friction paradox (Painlevé) in joint {joint} at t = {t:.6} s: no reaction agrees with the friction that it \
+         causes, so that the mechanism jams ({positions}); reduce the coefficient of friction, or give the friction a \
+         constant load"
+    )
+}
+
 /// The contact that rests by a row.
 fn contact_at(model: &Model, row: usize) -> Option<usize> {
     let rests = |k: &usize| model.forces[*k].held_row == Some(row) && is_rigid(model, *k);
@@ -143,19 +152,10 @@ impl Failure {
                 (name(row), message)
             }
             Breakdown::Beside { row, left } => (name(row), beside(model, t, q, (row, left))),
-            Breakdown::Reaction(row) if contact_at(model, row).is_some() => {
-                return Self::paradox(model, t, contact_at(model, row).unwrap_or_default());
-            }
-            Breakdown::Reaction(row) => {
-                let message = format!(
-                    "friction paradox (Painlevé) in joint {} at t = {t:.6} s: no reaction agrees with the \
-                     friction that it causes, so that the mechanism jams ({}); reduce the coefficient of \
-                     friction, or give the friction a constant load",
-                    name(row),
-                    positions(model, q)
-                );
-                (name(row), message)
-            }
+            Breakdown::Reaction(row) => match contact_at(model, row) {
+                Some(contact) => return Self::paradox(model, t, contact),
+                None => (name(row), jammed(t, &name(row), &positions(model, q))),
+            },
             Breakdown::Column(column) => no_mass::undetermined(model, t, column),
             Breakdown::Open { gap, .. } if gap.is_nan() => return Self::undefined(model, t, q),
             Breakdown::Open { row, gap } => {

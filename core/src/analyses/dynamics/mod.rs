@@ -68,6 +68,7 @@ mod motion_stepper;
 mod no_mass;
 mod option_checks;
 mod options;
+mod paradoxes;
 mod passages;
 mod planned_events;
 mod prepared;

@@ -91,6 +91,15 @@ pub(in crate::analyses) fn planned(model: &Model, options: &Options) -> Vec<Plan
     listed.chain(stop).chain(releases).chain(modes).list()
 }
 
+/// The forces whose modes end at some of the events.
+pub(super) fn ended(events: &[Planned], fired: &[usize]) -> Vec<usize> {
+    let of_force = |index: &usize| match events[*index].effect {
+        Effect::Mode { force, .. } => Some(force),
+        _ => None,
+    };
+    fired.iter().filter_map(of_force).list()
+}
+
 /// Reads the conditions of the events for the model of a phase.
 pub(super) fn conditions(
     model: &Model,

@@ -103,6 +103,8 @@ pub struct Run {
     pub passed: Vec<Passed>,
     /// Balances beyond the limits of the run that belong to the chosen method: drift and loss of energy.
     pub doubts: Vec<String>,
+    /// What was not examined.
+    pub notes: Vec<String>,
     /// Projection of the states; None with another stabilization. See
     /// [`Prepared::project`](super::Prepared::project).
     pub projection: Option<Projection>,

@@ -6,7 +6,7 @@
 //! without contact forces, in the limit ε → 0. This is the first step of Moreau's method, as the step tends to zero.
 //!
 //! The normal force of a contact that slides towards a paradox grows without bound. This contact is lost, and the impact
-//! takes place at the end of the sliding, which is no way for it then.
+//! takes place at the end of the sliding; the contact cannot go on to slide.
 //!
 //! All combinations of apart, sticking and sliding contacts are tried. A combination is a solution where its numbers
 //! agree at ε = 0, and in first order where they are zero there.
@@ -32,13 +32,13 @@ type Expansion = [f64; 2];
 
 /// What a contact does in an impact.
 #[derive(Clone, Copy, PartialEq)]
-enum Way {
+enum ContactWay {
     Apart,
     Sticks,
     Slides(f64),
 }
 
-impl Way {
+impl ContactWay {
     const ALL: [Self; 4] = [Self::Apart, Self::Sticks, Self::Slides(1.0), Self::Slides(-1.0)];
 }
 
@@ -114,13 +114,13 @@ fn solutions(
     for choice in 0..count {
         let mut left = choice;
         let of = |k: usize| {
-            let way = Way::ALL[left % ways(k)];
+            let way = ContactWay::ALL[left % ways(k)];
             left /= ways(k);
             way
         };
-        let combination: Vec<Way> = (0..found.normals).map(of).list();
-        let is_excluded = |(k, way): (usize, &Way)| match way {
-            Way::Slides(sign) => excluded(k, *sign),
+        let combination: Vec<ContactWay> = (0..found.normals).map(of).list();
+        let is_excluded = |(k, way): (usize, &ContactWay)| match way {
+            ContactWay::Slides(sign) => excluded(k, *sign),
             _ => false,
         };
         if combination.iter().enumerate().any(is_excluded) {
@@ -153,7 +153,7 @@ fn partner(found: &Contacts, normal: usize) -> Option<(usize, f64)> {
 fn solved(
     found: &Contacts,
     start: &[Expansion],
-    (ways, is_lost): (&[Way], &dyn Fn(usize) -> bool),
+    (ways, is_lost): (&[ContactWay], &dyn Fn(usize) -> bool),
 ) -> Option<Solved> {
     let n = found.all.len();
     let (mut matrix, mut right) = (vec![0.0; n * n], [vec![0.0; n], vec![0.0; n]]);
@@ -161,20 +161,20 @@ fn solved(
         matrix[row * n..(row + 1) * n].copy_from_slice(&found.compliance[of]);
         right.iter_mut().zip(start[of]).for_each(|(right, start)| right[row] = -start);
     };
-    let closed = |k: usize| ways[k] != Way::Apart;
+    let closed = |k: usize| ways[k] != ContactWay::Apart;
     let rub = |k: usize| partner(found, k);
     (0..ways.len()).filter(|k| closed(*k)).for_each(|k| keep(k, k));
-    let sticks = |k: &usize| ways[*k] == Way::Sticks;
+    let sticks = |k: &usize| ways[*k] == ContactWay::Sticks;
     (0..ways.len()).filter(sticks).filter_map(rub).for_each(|(at, _)| keep(at, at));
     for (k, way) in ways.iter().enumerate() {
-        if *way == Way::Apart {
+        if *way == ContactWay::Apart {
             matrix[k * n + k] = 1.0;
         }
         match (rub(k), way) {
-            (Some((at, mu)), Way::Slides(sign)) => {
+            (Some((at, mu)), ContactWay::Slides(sign)) => {
                 (matrix[at * n + at], matrix[at * n + k]) = (1.0, sign * mu);
             }
-            (Some((at, _)), Way::Apart) => matrix[at * n + at] = 1.0,
+            (Some((at, _)), ContactWay::Apart) => matrix[at * n + at] = 1.0,
             _ => {}
         }
     }
@@ -188,15 +188,15 @@ fn solved(
         found.compliance[k].iter().zip(&right[order]).map(|(d, x)| d * x).sum()
     };
     let after = |k: usize| -> Expansion { [0, 1].map(|order| start[k][order] + jump(k, order)) };
-    let fits = |(k, way): (usize, &Way)| match (way, rub(k)) {
-        (Way::Apart, _) => positive(after(k), 1.0),
+    let fits = |(k, way): (usize, &ContactWay)| match (way, rub(k)) {
+        (ContactWay::Apart, _) => positive(after(k), 1.0),
         (_, None) => positive(impulse(k), 1.0),
-        (Way::Sticks, Some((at, mu))) => [1.0, -1.0].iter().all(|sign| {
+        (ContactWay::Sticks, Some((at, mu))) => [1.0, -1.0].iter().all(|sign| {
             let mu = if is_lost(k) { mu * (1.0 + HELD) } else { mu };
             let reserve = [0, 1].map(|order| mu * impulse(k)[order] - sign * impulse(at)[order]);
             positive(reserve, 1.0)
         }),
-        (Way::Slides(sign), Some((at, _))) => {
+        (ContactWay::Slides(sign), Some((at, _))) => {
             positive(impulse(k), 1.0) && positive(after(at), *sign)
         }
     };

@@ -32,9 +32,10 @@ mod taking_part;
 
 pub use at_rest::{can_stick, friction_modes};
 pub(in crate::analyses) use mode_events::{watched_mode, ModeFunction};
-pub(super) use mode_events::{COLLAPSE, GRAZE, PARADOX};
+pub(super) use mode_events::{COLLAPSE, GRAZE};
 pub(super) use place::{has_mode, is_contact, unit as gap_unit, StateAt};
-pub(super) use sliding_contacts::lost;
+pub(super) use sliding_contacts::{lost, Uniqueness, MOST};
+pub(super) use taking_part::Settled;
 
 use crate::math::Listed;
 use place::{largest, with_modes};
@@ -45,7 +46,7 @@ use crate::elements::{Behaviour, Mode};
 use crate::model::{ForceMode, Model};
 use dependence::keep_closed;
 use impacts::Hits;
-use taking_part::{Settled, TakingPart};
+use taking_part::TakingPart;
 
 /// The forces whose modes ended where a phase ends.
 pub(super) struct Ended {
@@ -123,9 +124,8 @@ fn settle_part(
     let uniqueness = sliding_contacts::examine(model, place, touching, &modes)?;
     let Hits { hits, impulses, impacts, couples, ended } = found;
     let collapsed = !ended.is_empty();
-    let ended = ended.into_iter().map(|k| (k, COLLAPSE));
-    let changed = ended.chain(jammed.into_iter().map(|k| (k, PARADOX))).list();
-    Ok(Settled { modes, hits, impulses, impacts, couples, collapsed, changed, uniqueness })
+    let changed = ended.into_iter().map(|k| (k, COLLAPSE)).list();
+    Ok(Settled { modes, hits, impulses, impacts, couples, collapsed, changed, jammed, uniqueness })
 }
 
 /// Refuses a start beyond a stop or contact with restitution, and a stop whose coordinate is held by drivers that no

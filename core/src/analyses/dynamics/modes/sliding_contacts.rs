@@ -9,12 +9,12 @@
 //!
 //! with the inverse mass M̂⁻¹ of the mechanism with its joints, its drivers and all that sticks. The motion is unique if the
 //! symmetric part of A is positive definite. Otherwise all sets of contacts that press are tried (Cottle, Pang and
-//! Stone, *The Linear Complementarity Problem*, 1992, chapter 3).
+//! Stone, *The Linear Complementarity SlidingProblem*, 1992, chapter 3).
 
 use super::super::failure::Failure;
 use super::closed_contacts::Contacts;
 use super::companions::contact_of;
-use super::place::{is_contact, largest, StateAt};
+use super::place::{is_contact, largest, StateAt, STILL};
 use crate::elements::Mode;
 use crate::math::{Jet, Listed};
 use crate::model::{ForceMode, Model};
@@ -72,17 +72,26 @@ pub(super) fn examine(
         item.reaction.is_some() && !item.is_companion && !item.mode.holds()
     };
     let follows = |of: &ForceMode| matches!(of.mode, Mode::Follows { .. });
-    if closed.len() > MOST || others.iter().any(follows) || (0..base.forces.len()).any(reacts) {
+    // where sliding begins, its direction belongs to the motion
+    let slides = |k: &usize| rough(k).then_some(rub(k)).flatten();
+    let speeds = place.thresholds(model, &closed.iter().filter_map(slides).list());
+    let still = STILL * place.speed_scale(model, modes);
+    let begins = speeds.iter().any(|speed| speed.abs() <= still);
+    if closed.len() > MOST
+        || begins
+        || others.iter().any(follows)
+        || (0..base.forces.len()).any(reacts)
+    {
         return Ok(Uniqueness::Unknown);
     }
     let found = Contacts::within(model, &others, place, &closed)?;
     let free = place.solved(&base)?;
-    let begins = place.gap_jets(model, &closed, free.a());
+    let gaps = place.gap_jets(model, &closed, free.a());
     let direction = |force: usize, rate: f64| match mode(force) {
         Some(Mode::Slides(sign)) => sign,
         _ => rate.signum(),
     };
-    let problem = Problem::new(&found, &begins, &direction);
+    let problem = SlidingProblem::new(&found, &gaps, &direction);
     let pressing = |k: usize| match mode(closed[k]) {
         Some(mode) => mode.holds(),
         None => is_contact(model, closed[k]),
@@ -98,7 +107,7 @@ pub(super) fn examine(
 ///
 /// # Errors
 /// [`Failure`] where the equations have no solution.
-pub(in super::super) fn lost(
+pub fn lost(
     model: &Model,
     place: &StateAt<'_>,
     modes: &[ForceMode],
@@ -113,19 +122,19 @@ pub(in super::super) fn lost(
     }
     let others = modes.iter().filter(|of| of.force != friction.force && of.force != contact);
     let found = Contacts::within(model, &others.copied().list(), place, &[contact])?;
-    let problem = Problem::new(&found, &[Jet::new(0.0, 0.0, 0.0)], &|_, _| sign);
+    let problem = SlidingProblem::new(&found, &[Jet::new(0.0, 0.0, 0.0)], &|_, _| sign);
     Ok((problem.a[0][0] < HELD).then_some(contact))
 }
 
 /// The complementarity problem, in units in which its numbers are about 1.
-struct Problem {
+struct SlidingProblem {
     a: Vec<Vec<f64>>,
     b: Vec<f64>,
 }
 
-impl Problem {
-    /// `begins` are the gaps without contact forces, and `direction` is the sign with which friction slides.
-    fn new(found: &Contacts, begins: &[Jet], direction: &dyn Fn(usize, f64) -> f64) -> Self {
+impl SlidingProblem {
+    /// `gaps` move without contact forces, and `direction` is the sign with which friction slides.
+    fn new(found: &Contacts, gaps: &[Jet], direction: &dyn Fn(usize, f64) -> f64) -> Self {
         let n = found.normals;
         let mut a: Vec<Vec<f64>> = found.compliance[..n].iter().map(|row| row[..n].to_vec()).list();
         for (at, own) in found.all.iter().enumerate().skip(n) {
@@ -136,7 +145,7 @@ impl Problem {
             }
         }
         let b: Vec<f64> =
-            begins.iter().zip(&found.all).map(|(gap, own)| gap.second * own.unit).list();
+            gaps.iter().zip(&found.all).map(|(gap, own)| gap.second * own.unit).list();
         let scale = largest(&b).max(f64::MIN_POSITIVE);
         Self { a, b: b.iter().map(|b| b / scale).list() }
     }
@@ -158,7 +167,7 @@ impl Problem {
         })
     }
 
-    /// The accelerations of the gaps if the contacts of a set press; None if they are no solution.
+    /// The accelerations of the gaps if the contacts of a set press; None if this contradicts the law of contact.
     fn gaps(&self, set: usize) -> Option<Vec<f64>> {
         let held: Vec<usize> = (0..self.b.len()).filter(|k| set >> k & 1 == 1).list();
         let mut matrix = held.iter().flat_map(|i| held.iter().map(|k| self.a[*i][*k])).list();

@@ -5,7 +5,7 @@ use super::super::passages::Struck;
 use super::companions;
 use super::mode_events::PARADOX;
 use super::place::{is_contact, with_modes};
-use super::sliding_contacts::{Uniqueness, MOST};
+use super::sliding_contacts::Uniqueness;
 use crate::elements::Mode;
 use crate::math::Listed;
 use crate::model::{ForceMode, Model};
@@ -27,40 +27,17 @@ pub struct Settled {
     pub collapsed: bool,
     /// Other changes: the force, and the place of its event.
     pub changed: Vec<(usize, usize)>,
+    /// Contacts whose sliding an impact without collision ended.
+    pub jammed: Vec<usize>,
     /// Whether the motion that follows is the only one.
     pub uniqueness: Uniqueness,
 }
 
 impl Settled {
-    /// What a user has to know about the motion that follows at time `t`. What was `told` is not repeated.
-    pub fn doubts(&self, model: &Model, t: f64, told: &mut [bool; 3]) -> Vec<String> {
-        let name = |k: usize| &model.forces[k].name;
-        let jams = self.changed.iter().find(|(_, of)| *of == PARADOX).map(|(k, _)| {
-            format!(
-                "friction paradox (Painlevé) of {} at t = {t:.6} s: no normal force agrees with its friction; an impact \
-                 without collision ended the sliding (jam = \"impact\")",
-                name(*k)
-            )
-        });
-        let (mut several, mut unknown) = (None, None);
-        match self.uniqueness {
-            Uniqueness::Unique => {}
-            Uniqueness::Several(k) => {
-                several = Some(format!(
-                    "the motion from t = {t:.6} s on is not unique: with rigid contacts and their friction, {} can \
-                     press or separate; less friction, or a stiffness in place of restitution, makes it unique",
-                    name(k)
-                ));
-            }
-            Uniqueness::Unknown => {
-                unknown = Some(format!(
-                    "from t = {t:.6} s on it was not examined whether the motion is unique: more than {MOST} contacts \
-                     with friction slide, or joints with friction slide beside them"
-                ));
-            }
-        }
-        let all = [jams, several, unknown].into_iter().zip(told);
-        all.filter_map(|(doubt, told)| doubt.filter(|_| !std::mem::replace(told, true))).list()
+    /// The contacts with impulses, and the places of their events.
+    pub fn struck(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let hits = self.hits.iter().map(|k| (*k, 0));
+        hits.chain(self.jammed.iter().map(|k| (*k, PARADOX)))
     }
 }
 
@@ -119,12 +96,13 @@ impl TakingPart {
             of.restitution = of.restitution.map(force);
         }
         let hits = own.hits.into_iter().map(force).list();
+        let jammed = own.jammed.into_iter().map(force).list();
         let uniqueness = match own.uniqueness {
             Uniqueness::Several(contact) => Uniqueness::Several(force(contact)),
             other => other,
         };
         let changed = own.changed.into_iter().map(|(k, of)| (force(k), of)).list();
-        Settled { modes, hits, impulses, impacts, changed, uniqueness, ..own }
+        Settled { modes, hits, impulses, impacts, changed, jammed, uniqueness, ..own }
     }
 }
 
