@@ -59,7 +59,7 @@ impl Paradoxes {
         }
     }
 
-    /// Adds what a user has to know about the motion that follows at time `t`. What was told is not repeated.
+    /// Adds what a user has to know about the motion that follows at time `t`. Each kind is reported once.
     pub fn tell(&mut self, model: &Model, t: f64, settled: &Settled, run: &mut Run) {
         let name = |k: usize| &model.forces[k].name;
         let jam = settled.jammed.first();
