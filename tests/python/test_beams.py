@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+import warnings
 from typing import Any
 
 import kempe as kp
@@ -213,3 +214,30 @@ def test_lists_and_figures_number_a_beam_as_one_body() -> None:
     words = " ".join(text.get_text() for text in kp.plot.configuration(sol.initial).texts)
     assert {"1", "2"} <= set(words.split())
     assert "3" not in words.split()
+
+
+@pytest.mark.parametrize(("size", "stiffness"), [(1.0, 1.0), (1e-3, 1e-4), (1e3, 1e5)])
+def test_beams_with_too_few_elements_are_named(size: float, stiffness: float) -> None:
+    """The advised number of elements removes the warning, and the tip is where it belongs."""
+
+    def tip(load: float, elements: int | None) -> tuple[Any, list[str]]:
+        given = {"EA": 1e4 * stiffness / size**2, "GA": 1e4 * stiffness / size**2}
+        m = kp.Model("clamped")
+        m.ground.points(O=(0, 0))
+        m.beam("rod", length=size, EI=stiffness, mass_per_length=1, elements=elements, **given)
+        m.weld("clamp", "ground.O", "rod.A")
+        m.force("load", "rod.B", force=(0, -load * stiffness / size**2))
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            found = kp.equilibrium(m, kp.assemble(m)).state
+        place = np.array([found["rod.B.x"], found["rod.B.y"]]) / size
+        return place, [str(one.message) for one in told]
+
+    for load in (3.0, 30.0, 300.0):
+        place, told = tip(load, None)
+        assert ["rod has too few elements" in text for text in told] == [True] * (load == 300)
+        if size == 1.0 and told:
+            advised = int(told[0].partition("elements = ")[2].split()[0])
+            exact, told = tip(load, advised)
+            assert not told
+            assert 1e-4 < np.abs(place - exact).max() < 1e-2

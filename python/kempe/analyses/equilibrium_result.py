@@ -8,9 +8,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from kempe.analyses.dynamics import AccuracyWarning
 from kempe.analyses.record import Record
 from kempe.base.arrays import Floats, fixed
 from kempe.base.display_units import display
+from kempe.base.warn import warn
 from kempe.model.compiled import CompiledModel
 from kempe.model.measure_infos import parameter_unit
 from kempe.results import quantities
@@ -20,6 +22,11 @@ from kempe.results.table import Column, column
 
 #: Largest number of lines of one kind in a report.
 _MOST = 20
+#: Largest number of states of a path in which beams are examined.
+_EXAMINED = 10
+#: Jump of the bending moment between elements, relative to the largest one, from which on there are
+#: too few elements. The error of the displacements is about a hundredth of it.
+_COARSE = 0.02
 #: Ends of a path.
 _ENDS = {
     "last": "the path reached the end of the range",
@@ -94,6 +101,23 @@ class EquilibriumResult(Result):
         told = _ENDS.get(found.get("end", ""), "")
         self.end = f"{told}: {why}" if why else told
         self.complete = found.get("end", "last") in ("last", "first")
+        self._look_at_beams(model)
+
+    def _look_at_beams(self, model: CompiledModel) -> None:
+        """Warn of beams with too few elements for their bending."""
+        some = np.linspace(0, len(self.states) - 1, _EXAMINED).astype(int)
+        for name in (name for name, body in model.bodies.items() if body.type == "beam"):
+            views = [self.states[k].beam(name) for k in sorted(set(some))]
+            most = [float(np.abs(view.bending_moment).max()) for view in views]
+            jumps = [view.error * own for view, own in zip(views, most, strict=True)]
+            k = int(np.argmax(jumps))
+            if jumps[k] > _COARSE * max(most):
+                warn(
+                    f"{name} has too few elements: its bending moment jumps by "
+                    f"{100 * views[k].error:.2g} % where elements meet; elements = "
+                    f"{views[k].enough} makes the jumps about 0.1 %",
+                    AccuracyWarning,
+                )
 
     def _of(self, values: Floats) -> Floats:
         """The rows of a path, or the only one."""
