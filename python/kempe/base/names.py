@@ -66,6 +66,21 @@ def few(names: Iterable[str], most: int = 6) -> str:
     return ", ".join(given[:most]) + more
 
 
+class Named(dict[str, T]):
+    """A mapping whose unknown keys are errors with a suggestion.
+
+    Attributes:
+        what: kind of its values, such as "event".
+    """
+
+    def __init__(self, what: str, values: Mapping[str, T]) -> None:
+        super().__init__(values)
+        self.what = what
+
+    def __missing__(self, key: object) -> T:
+        raise unknown(self.what, key, self)
+
+
 def entry(what: str, name: object, known: Mapping[str, T]) -> T:
     """The value of a name.
 

@@ -16,7 +16,7 @@ from kempe.design.places import is_pin
 from kempe.design.shaking import shaking
 from kempe.design.weights import least
 from kempe.errors import ModelError
-from kempe.model.values import refuse
+from kempe.model.values import instance, refuse
 from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
@@ -108,6 +108,9 @@ def balance(
         ModelError: a body has no pivot on ground, the case has no motion, counterweights would
             change the motion, or the case of a torque has not exactly one driver.
     """
+    from kempe.case import Case
+
+    instance(case, Case, "a case, as kp.load(path) returns")
     if of not in _BALANCED:
         raise unknown("quantity to balance", of, _BALANCED)
     own = _Measure(case, of, about)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from kempe import _core
 from kempe._upwards import CALLS
-from kempe.base.names import entry
+from kempe.base.names import Named, entry
 from kempe.model.functions import FunctionLaw, Functions, refuse_saving
 from kempe.model.infos import (
     ACCELERATIONS,
@@ -194,13 +194,13 @@ class CompiledModel:
     @property
     def parameters(self) -> Mapping[str, float]:
         """Values of the parameters."""
-        return MappingProxyType(self._about["parameters"])
+        return MappingProxyType(Named("parameter", self._about["parameters"]))
 
     @cached_property
     def tables(self) -> Mapping[str, TableInfo]:
         """The tables, each a function in SI units."""
         infos = (TableInfo(self.core, entry) for entry in self._about["tables"])
-        return MappingProxyType({info.name: info for info in infos})
+        return MappingProxyType(Named("table", {info.name: info for info in infos}))
 
     @property
     def n_q(self) -> int:
@@ -225,12 +225,15 @@ class CompiledModel:
     @cached_property
     def all_bodies(self) -> Mapping[str, BodyInfo]:
         """Ground and the moving bodies, in the order of q."""
-        return MappingProxyType({info.name: info for info in bodies(self._about["bodies"])})
+        found = {info.name: info for info in bodies(self._about["bodies"])}
+        return MappingProxyType(Named("body", found))
 
     @cached_property
     def bodies(self) -> Mapping[str, BodyInfo]:
         """The moving bodies, in the order of q."""
-        return MappingProxyType({k: b for k, b in self.all_bodies.items() if b.number})
+        return MappingProxyType(
+            Named("body", {k: b for k, b in self.all_bodies.items() if b.number})
+        )
 
     @property
     def shown_bodies(self) -> Mapping[str, BodyInfo]:
@@ -254,8 +257,8 @@ class CompiledModel:
     @cached_property
     def constraints(self) -> Mapping[str, ConstraintInfo]:
         """Joints and drivers, in the order of Φ."""
-        infos = self._all_constraints
-        return MappingProxyType({info.name: info for info in infos if info.is_shown})
+        found = {info.name: info for info in self._all_constraints if info.is_shown}
+        return MappingProxyType(Named("joint or driver", found))
 
     def locks(self, beam: str) -> list[ConstraintInfo]:
         """The constraints that lock strains of the pieces of a beam, along the beam."""
@@ -275,13 +278,14 @@ class CompiledModel:
     @cached_property
     def forces(self) -> Mapping[str, ForceInfo]:
         """The force elements."""
-        infos = map(force, self._about["forces"])
-        return MappingProxyType({info.name: info for info in infos})
+        found = {info.name: info for info in map(force, self._about["forces"])}
+        return MappingProxyType(Named("force", found))
 
     @cached_property
     def measures(self) -> Mapping[str, MeasureInfo]:
         """The measures, in the order of the file."""
-        return MappingProxyType({info.name: info for info in measure_infos(self)})
+        found = {info.name: info for info in measure_infos(self)}
+        return MappingProxyType(Named("measure", found))
 
     @cached_property
     def symbols(self) -> tuple[dict[str, Any], ...]:
@@ -383,7 +387,8 @@ class CompiledModel:
         return names + own
 
     def _group(self, group: str) -> Mapping[str, ConstraintInfo]:
-        return MappingProxyType({k: c for k, c in self.constraints.items() if c.group == group})
+        found = {k: c for k, c in self.constraints.items() if c.group == group}
+        return MappingProxyType(Named(group.removesuffix("s"), found))
 
 
 def _restored(
