@@ -306,34 +306,6 @@ def test_check_refuses_what_run_refuses(analysis: str, tmp_path: Path) -> None:
     assert told[0][:60] == told[1][:60] or all("length: -" in one for one in told), told
 
 
-#: Values of ``over`` that no analysis has, with a part of the remedy.
-OVER = {
-    "a rate": ('over = "crank.omega"', "name 'crank.angle'"),
-    "a rate of a joint": ('over = "A.omega"', "name 'A.angle'"),
-    "misspelt": ('over = "crank.angl"', "did you mean 'crank.angle'"),
-    "no body": ('over = "motor"', "write the name of one"),
-}
-
-
-@pytest.mark.parametrize("kind", ["limits", "kinematics", "inverse_dynamics"])
-@pytest.mark.parametrize("name", [*OVER, "none"])
-def test_check_refuses_what_a_later_analysis_refuses(kind: str, name: str, tmp_path: Path) -> None:
-    over, remedy = OVER.get(name, ("", "name a driver or a position quantity"))
-    if kind != "limits" and not over:
-        pytest.skip("these analyses may have a time instead")
-    ranged = "" if kind == "limits" else "\nrange = [0, 1]"
-    text = FOUR_BAR.replace("t_end = 15", "t_end = 0.02")
-    text += f'\n[analyses.later]\ntype = "{kind}"\n{over}{ranged}\n'
-    (tmp_path / "case.toml").write_text(text)
-    told = [kempe(word, "case.toml", cwd=tmp_path) for word in ("run", "check")]
-    assert [one.returncode for one in told] == [2, 2]
-    assert told[0].stderr == told[1].stderr
-    assert "analyses.later.over: " in told[1].stderr and remedy in told[1].stderr
-    cured = text.replace(over, 'over = "crank.angle"') if over else text + 'over = "crank.angle"\n'
-    (tmp_path / "case.toml").write_text(cured)
-    assert kempe("check", "case.toml", cwd=tmp_path).returncode == 0
-
-
 COMMANDS: list[tuple[tuple[str, ...], int, tuple[str, ...]]] = [
     (("run", "nothing.toml"), 4, ("nothing.toml", "check the name")),
     (("run", "."), 4, ("folder",)),
@@ -360,35 +332,16 @@ COMMANDS: list[tuple[tuple[str, ...], int, tuple[str, ...]]] = [
         2,
         ("write C.force.max",),
     ),
-    (
-        ("sweep", "case.toml", "--over", "k=1:2:3", "--measure", "frequency[0]"),
-        2,
-        ("no number of a motion", "--analysis NAME, of type modes"),
-    ),
-    (
-        ("sweep", "case.toml", "--over", "k=1:2:3", "--measure", "frequency"),
-        2,
-        ("'frequency' is no number", "of type modes"),
-    ),
-    (
-        ("sweep", "case.toml", "--over", "k=1:2:3", "--measure", "lower"),
-        2,
-        ("of type limits",),
-    ),
-    (
-        ("sweep", "case.toml", "--over", "k=1:2:3", "--measure", "max"),
-        2,
-        ("QUANTITY.STATISTIC", "write crank.omega.max"),
-    ),
-    (
-        ("sweep", "case.toml", "--over", "k=1:2:3", "--measure", "pinn.max"),
-        2,
-        ("unknown measure 'pinn'", "such as crank.angle"),
-    ),
-    (
-        ("sweep", "case.toml", "--over", "k=1:2:1e9", "--measure", "C.force.max"),
-        2,
-        ("k=1:2:1e9", "N is a whole number"),
+    *(
+        (("sweep", "case.toml", "--over", f"k=1:2:{n}", "--measure", measure), 2, told)
+        for n, measure, told in (
+            ("3", "frequency[0]", ("not a number of a motion", "--analysis NAME, of type modes")),
+            ("3", "frequency", ("'frequency' is not a number", "of type modes")),
+            ("3", "lower", ("of type limits",)),
+            ("3", "max", ("QUANTITY.STATISTIC", "write crank.omega.max")),
+            ("3", "pinn.max", ("unknown measure 'pinn'", "such as crank.angle")),
+            ("1e9", "C.force.max", ("k=1:2:1e9", "N is a whole number")),
+        )
     ),
     (("sweep", "case.toml", "--over", "k=1:2:3"), 2, ("measures",)),
     (

@@ -213,13 +213,16 @@ fn squares(model: &Model, free: &[Vec<f64>], forms: &[Vec<f64>]) -> Option<Vec<K
 }
 
 /// Coordinates and differences of angles whose images span a space with this orthonormal basis, one for each dimension.
-/// The image is that of the rate along the freedoms, a vector of length 1.
+/// The image is that of the rate along the freedoms, a vector of length 1. None if there are none, or too few.
 fn spanning(
     model: &Model,
     free: &[Vec<f64>],
     basis: &[Vec<f64>],
     image: impl Fn(&[f64]) -> Vec<f64>,
 ) -> Option<Vec<Kept>> {
+    if basis.is_empty() {
+        return None;
+    }
     let scales = column_scales(model);
     let (mut kept, mut spanned) = (Vec::new(), Vec::new());
     for candidate in candidates(model) {

@@ -108,9 +108,6 @@ def balance(
         ModelError: a body has no pivot on ground, the case has no motion, counterweights would
             change the motion, or the case of a torque has not exactly one driver.
     """
-    from kempe.case import Case
-
-    instance(case, Case, "a case, as kp.load(path) returns")
     if of not in _BALANCED:
         raise unknown("quantity to balance", of, _BALANCED)
     own = _Measure(case, of, about)
@@ -151,6 +148,9 @@ class _Measure:
     """
 
     def __init__(self, case: Case, of: str, about: str | tuple[float, float]) -> None:
+        from kempe.case import Case
+
+        instance(case, Case, "a case, as kp.load(path) returns")
         self.case, self.of, self.about = case, of, about
         drivers = list(case.model.tree().get("drivers", {}))
         if of == "torque" and len(drivers) != 1:

@@ -12,7 +12,7 @@ from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.base.names import few
 from kempe.errors import ModelError
-from kempe.model.values import instance, mapping, numbers, refuse
+from kempe.model.values import mapping, numbers, refuse
 from kempe.sweeps.asked import plan_of
 from kempe.sweeps.gradients.run import gradient, in_analyses, numbers_and_slopes
 from kempe.sweeps.plan import Plan
@@ -120,9 +120,6 @@ def tolerances(
             itself or a variant for a slope fails; the message has its reason.
     """
     given = numbers(mapping(deviations, "deviations", "{'L2': 0.05}"), "deviations")
-    from kempe.case import Case
-
-    instance(case, Case, "a case, as kp.load(path) returns")
     middle = present(case, given)  # the sweep refuses unknown names
     spread = {name: {"normal": [middle[name], x]} for name, x in given.items()}
     read = limits_of(case, subject_to, analysis)

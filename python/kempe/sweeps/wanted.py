@@ -98,7 +98,7 @@ def _not_a_statistic(model: CompiledModel, text: str) -> ModelError:
     """The error for a text that does not end with a statistic."""
     if kinds := kinds_with(text):
         hint = f"{ANOTHER}, of type {' or '.join(kinds)}"
-        return ModelError(f"measures: {text!r} is no number of a motion", name=text, hint=hint)
+        return ModelError(f"measures: {text!r} is not a number of a motion", name=text, hint=hint)
     quantity, _, word = text.rpartition(".")
     if not quantity or text in model.measures or _is_read(model, text):
         of = "crank.omega" if word in ALL else text
