@@ -14,7 +14,7 @@ from kempe import _core
 from kempe.base.arguments import explain_methods
 from kempe.errors import KempeError, ModelError
 from kempe.model.measure_infos import measure_info
-from kempe.model.values import refuse
+from kempe.model.values import instance, refuse
 from kempe.sweeps.asked import plan_of
 
 if TYPE_CHECKING:
@@ -103,6 +103,9 @@ class Exercise:
     """
 
     def __init__(self, case: Case, seed: int | None = None) -> None:
+        from kempe.case import Case
+
+        instance(case, Case, "a case, as kp.load(path) returns")
         section = case.exercise
         if not section:
             hint = "write [exercise] with questions, such as those of kempe new exercise_crank"

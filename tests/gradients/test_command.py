@@ -64,7 +64,7 @@ def test_remarks_are_printed(folder: Path, capsys: pytest.CaptureFixture[str]) -
     [
         ([], "gradient: no variables"),
         (["--over", "masss", "--measure", "pin.max"], "unknown variable 'masss'"),
-        (["--over", "mass", "--measure", "pin"], "unknown statistic"),
+        (["--over", "mass", "--measure", "pin"], "write pin.max"),
     ],
 )
 def test_faulty_words_are_refused(

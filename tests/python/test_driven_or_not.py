@@ -56,6 +56,29 @@ def test_one_equation_too_many_does_not_drive_a_mechanism() -> None:
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("redundancy", ["refuse", "allow"])
+def test_only_bodies_that_drivers_leave_free_may_settle(size: float, redundancy: str) -> None:
+    """A driven crank moves a cart by a rod; a pendulum hangs on the cart, another one on ground."""
+    m = kp.Model("carriage", gravity=(0, -9.81 * size), redundancy=redundancy)
+    m.ground.points(O=(0, 0), H=(0, 3 * size))
+    inertia = size**2
+    for name, length in (("crank", 1), ("rod", 3), ("hung", 1), ("apart", 1)):
+        m.bar(name, mass=1, length=length * size, ends=("P", "Q"))
+    m.body("cart", mass=1, inertia=inertia, points={"C": (0, 0)})
+    m.revolute("O", "ground.O", "crank.P")
+    m.revolute("A", "crank.Q", "rod.P")
+    m.revolute("B", "rod.Q", "cart.C")
+    m.translational("guide", "ground.O", "cart.C")
+    if redundancy == "allow":
+        m.translational("again", "ground.O", "cart.C")
+    m.revolute("C", "cart.C", "hung.P")
+    m.revolute("H", "ground.H", "apart.P")
+    m.coordinate_driver("motor", "crank.angle", value="1 + t")
+    sol = kp.dynamics(m, kp.assemble(m, {"hung.angle": 0, "apart.angle": 0}), t_end=0.1)
+    assert [one["body"] for one in summary(sol)["settling"]] == ["hung", "apart"]
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
 def test_a_rod_pulls_at_its_own_point_of_each_body(size: float) -> None:
     m = kp.Model("swing", gravity=(0, -9.81))
     m.ground.points(O=(0, 0))

@@ -324,13 +324,24 @@ COMMANDS: list[tuple[tuple[str, ...], int, tuple[str, ...]]] = [
     (
         ("sweep", "case.toml", "--over", "k=1:2:3", "--measure", "C.force"),
         2,
-        ("C.force", "statistic"),
+        ("C.force", "write C.force.max"),
     ),
     (("sweep", "case.toml", "--over", "k=1:2:3", "--measure", "C.foo.max"), 2, ("foo",)),
     (
         ("sweep", "case.toml", "--over", "k=1:2:3", "--measure", "max(C.force)"),
         2,
         ("write C.force.max",),
+    ),
+    *(
+        (("sweep", "case.toml", "--over", f"k=1:2:{n}", "--measure", measure), 2, told)
+        for n, measure, told in (
+            ("3", "frequency[0]", ("not a number of a motion", "--analysis NAME, of type modes")),
+            ("3", "frequency", ("'frequency' is not a number", "of type modes")),
+            ("3", "lower", ("of type limits",)),
+            ("3", "max", ("QUANTITY.STATISTIC", "write crank.omega.max")),
+            ("3", "pinn.max", ("unknown measure 'pinn'", "such as crank.angle")),
+            ("1e9", "C.force.max", ("k=1:2:1e9", "N is a whole number")),
+        )
     ),
     (("sweep", "case.toml", "--over", "k=1:2:3"), 2, ("measures",)),
     (

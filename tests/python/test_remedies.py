@@ -251,6 +251,8 @@ CHECK = ("check", "case.toml", "--set")
 RUN = ("run", "case.toml", "--no-figures")
 MEASURE = ("--measure", "C.force.max")
 SWEEP = ("sweep", "case.toml", "--over", "k=1e6:2e6:2", *MEASURE)
+LONE = (*SWEEP[:4], "--measure")
+KINDS = ("sweep", "kinds.toml", *LONE[2:])
 #: Words of the mistaken command, the remedy in its message, and the command after the remedy.
 WORDS_OF: dict[str, tuple[str, tuple[str, ...]]] = {
     "run nothing.toml": ("check the name", ("check", "case.toml")),
@@ -279,7 +281,25 @@ WORDS_OF: dict[str, tuple[str, tuple[str, ...]]] = {
         ("sweep", "case.toml", "--over", "k=1e5:1e6:2:log", "--measure", "C.force.max"),
     ),
     "sweep case.toml --over kk=1:2:3 --measure C.force.max": ("'k'", SWEEP),
-    "sweep case.toml --over k=1:2:3 --measure C.force": ("there is max", SWEEP),
+    "sweep case.toml --over k=1:2:3 --measure C.force": ("write C.force.max", SWEEP),
+    "sweep case.toml --over k=1:2:3 --measure max": (
+        "write crank.omega.max",
+        (*LONE, "crank.omega.max"),
+    ),
+    "sweep case.toml --over k=1:2:3 --measure pinn.max": ("crank.angle or C.force", SWEEP),
+    "sweep case.toml --over k=1:2:1e9 --measure C.force.max": ("N is a whole number", SWEEP),
+    "sweep case.toml --over k=1:2:3 --measure frequency[0]": (
+        "--analysis NAME, of type modes",
+        (*KINDS, "frequency[0]", "--analysis", "vibration"),
+    ),
+    "sweep case.toml --over k=1:2:3 --measure frequency": (
+        "--analysis NAME, of type modes",
+        (*KINDS, "frequency", "--analysis", "vibration"),
+    ),
+    "sweep case.toml --over k=1:2:3 --measure lower": (
+        "--analysis NAME, of type limits",
+        (*KINDS, "lower", "--analysis", "ends"),
+    ),
     "sweep case.toml --over k=1:2:3 --measure C.foo.max": ("C.force", SWEEP),
     "sweep case.toml --over k=1:2:3 --measure max(C.force)": ("write C.force.max", SWEEP),
     "sweep case.toml --over k=1:2:3": ("measures", SWEEP),
@@ -312,6 +332,8 @@ def test_the_remedy_for_a_command_works(words: tuple[str, ...], tmp_path: Path) 
     (tmp_path / "case.toml").write_text(short)
     (tmp_path / "bad.txt").write_bytes(b"\xff\xfe")
     (tmp_path / "two.toml").write_text(short + '\n[analyses.rest]\ntype = "equilibrium"\n')
+    kinds = '\n[analyses.vibration]\ntype = "modes"\n[analyses.ends]\ntype = "limits"\n'
+    (tmp_path / "kinds.toml").write_text(f'{short}{kinds}over = "rocker.angle"\n')
     given = short.replace("mass = 3", 'mass = "p"').replace("[parameters]", "[parameters]\np = 3")
     (tmp_path / "p.toml").write_text(given)
     driven = '[drivers.motor]\ntype = "coordinate_driver"\ncoordinate = "crank.angle"\n'

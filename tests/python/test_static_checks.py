@@ -4,6 +4,7 @@ from pathlib import Path
 
 import kempe as kp
 import pytest
+from command_line import kempe
 from kempe.cli import main
 
 FOUR_BAR = (Path(__file__).parents[2] / "examples" / "four_bar.toml").read_text("utf-8")
@@ -97,3 +98,31 @@ def test_check_accepts_a_range_with_units(tmp_path: Path, kind: str, pair: str) 
     path = tmp_path / "case.toml"
     path.write_text(text, "utf-8")
     assert main(["check", str(path)]) == 0
+
+
+#: Values of ``over`` that no analysis has, with a part of the remedy.
+OVER = {
+    "a rate": ('over = "crank.omega"', "name 'crank.angle'"),
+    "a rate of a joint": ('over = "A.omega"', "name 'A.angle'"),
+    "misspelt": ('over = "crank.angl"', "did you mean 'crank.angle'"),
+    "no body": ('over = "motor"', "write the name of one"),
+}
+
+
+@pytest.mark.parametrize("kind", ["limits", "kinematics", "inverse_dynamics"])
+@pytest.mark.parametrize("name", [*OVER, "none"])
+def test_check_refuses_what_a_later_analysis_refuses(kind: str, name: str, tmp_path: Path) -> None:
+    over, remedy = OVER.get(name, ("", "name a driver or a position quantity"))
+    if kind != "limits" and not over:
+        pytest.skip("these analyses may have a time instead")
+    ranged = "" if kind == "limits" else "\nrange = [0, 1]"
+    text = FOUR_BAR.replace("t_end = 15", "t_end = 0.02")
+    text += f'\n[analyses.later]\ntype = "{kind}"\n{over}{ranged}\n'
+    (tmp_path / "case.toml").write_text(text)
+    told = [kempe(word, "case.toml", cwd=tmp_path) for word in ("run", "check")]
+    assert [one.returncode for one in told] == [2, 2]
+    assert told[0].stderr == told[1].stderr
+    assert "analyses.later.over: " in told[1].stderr and remedy in told[1].stderr
+    cured = text.replace(over, 'over = "crank.angle"') if over else text + 'over = "crank.angle"\n'
+    (tmp_path / "case.toml").write_text(cured)
+    assert kempe("check", "case.toml", cwd=tmp_path).returncode == 0

@@ -59,7 +59,7 @@ def test_it_resumes_and_begins_anew(folder: Path, capsys: pytest.CaptureFixture[
         (["--over", "k=1"], "NAME=FROM:TO:N"),
         (["--over", "k=1:2:3:lg"], "neither 'linear' nor 'log'"),
         (["--over", "kk=1:2:3"], "unknown variable 'kk'"),
-        (["--measure", "pin"], "unknown statistic"),
+        (["--measure", "pin"], "write pin.max"),
         (["--scheduler", "tcp://127.0.0.1:1"], "no Dask scheduler|needs Dask"),
     ],
 )

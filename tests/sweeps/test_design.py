@@ -97,7 +97,7 @@ def test_faults_are_named_with_a_remedy(variables: dict, options: dict, message:
     ("text", "message"),
     [
         ("pin.mx", "did you mean 'max'"),
-        ("pin", "unknown statistic"),
+        ("pin", "write pin.max"),
         ("C.fource.max", "did you mean"),
     ],
 )

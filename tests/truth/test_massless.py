@@ -119,7 +119,7 @@ def test_a_massless_body_with_a_freedom_of_its_own_is_refused(gravity: float) ->
         model = kp.Model.from_tree(drawn.tree() | {"gravity": [0.0, gravity]})
         message = refused(model, given)
         body = named.split(".")[0]
-        assert f"nothing resists {named}" in message
+        assert f"no inertia resists {named}" in message
         assert "set its mass, or hold it with a joint or driver" in message
         # the remedy works
         tree = model.tree()
@@ -135,7 +135,7 @@ def test_the_inertia_of_a_massless_body_determines_its_angle() -> None:
     model.revolute("O", "ground.O", "wheel.O")
     model.torque("push", "wheel", torque=3)
     message = refused(model, {"wheel.angle": 0})
-    assert "nothing resists wheel.angle" in message and "set its inertia" in message
+    assert "no inertia resists wheel.angle" in message and "set its inertia" in message
     tree = model.tree()
     tree["bodies"]["wheel"]["inertia"] = 0.5
     cured = kp.Model.from_tree(tree)
@@ -147,7 +147,7 @@ def test_a_free_massless_point_is_refused_and_a_mass_cures_it() -> None:
     model.point_mass("stone", mass=1)
     model.point_mass("ghost", mass=0)
     message = refused(model, {"stone.x": 1, "ghost.x": 2})
-    assert "nothing resists ghost.x" in message and "no joint holds it; set its mass" in message
+    assert "no inertia resists ghost.x" in message and "no joint holds it; set its mass" in message
 
 
 def test_a_heavy_mechanism_beside_a_light_one_changes_nothing() -> None:
@@ -197,13 +197,13 @@ def test_check_refuses_what_the_run_refuses(
         path.write_text(json.dumps(tree | {"analyses": analyses}), "utf-8")
         assert main(["check", str(path)]) == code
         said = " ".join("".join(capsys.readouterr()).split())
-        assert f"nothing resists {body}." in said
+        assert f"no inertia resists {body}." in said
     # the remedy works
     tree["bodies"][body]["mass"] = 0.01
     analyses = {"run": {"type": "dynamics", "t_end": 0.2}}
     path.write_text(json.dumps(tree | {"analyses": analyses}), "utf-8")
     assert main(["check", str(path)]) == 0
-    assert "nothing resists" not in capsys.readouterr().out
+    assert "no inertia resists" not in capsys.readouterr().out
     assert kp.load(path).run()["run"].success
 
 
@@ -212,7 +212,7 @@ def test_modes_and_accelerations_refuse_what_the_run_refuses(body: str) -> None:
     model, given = free_mechanisms()[body]
     start = kp.assemble(model, given)
     for refuses in (lambda: kp.modes(model, start), lambda: start.a):
-        with pytest.raises(kp.SingularityError, match=f"nothing resists {body}.") as caught:
+        with pytest.raises(kp.SingularityError, match=f"no inertia resists {body}.") as caught:
             refuses()
         assert caught.value.name == body
     tree = model.tree()

@@ -2,6 +2,7 @@
 
 import math
 import warnings
+from itertools import pairwise
 
 import kempe as kp
 import numpy as np
@@ -13,7 +14,7 @@ pytestmark = pytest.mark.filterwarnings(
 
 
 class Mechanism:
-    """A mechanism whose equations hold only to second order, or with the linear constraint instead.
+    """A mechanism whose equations hold only to second order, or with linear constraints instead.
 
     Attributes:
         model: the mechanism.
@@ -23,6 +24,9 @@ class Mechanism:
         shared: a joint without a unique reaction.
     """
 
+    #: Further linear constraints, where the form is a sum of squares.
+    more = ()
+
     def __init__(self, size, mass, linear):
         redundancy = "allow" if linear else "refuse"
         self.size, self.mass = size, mass
@@ -31,8 +35,8 @@ class Mechanism:
         )
         self.build()
         if linear:
-            terms, value = self.linear
-            self.model.coupling("linear", terms=terms, value=value)
+            for k, (terms, value) in enumerate([self.linear, *self.more]):
+                self.model.coupling(f"linear{k}", terms=terms, value=value)
 
     def body(self, name, **points):
         inertia = 0.1 * self.mass * self.size**2
@@ -83,28 +87,64 @@ class Braces(Mechanism):
     """A parallelogram with two bars in line, together as long as its cranks."""
 
     linear = {"b2.angle": 1, "b1.angle": -1}, 0.0
-    over, shared = "c1.angle", "M"
+    over, shared = "c1.angle", "M1"
+    #: The lengths of the bars in line.
+    braces = 0.4, 0.6
 
     def build(self):
         s, m = self.size, self.model
-        m.ground.points(A=(0, 0), D=(2 * s, 0), E=(s, 0))
+        m.ground.points(A=(0, 0), D=(2 * s, 0), M0=(s, 0))
         self.bar("c1", 1, "A", "B")
         self.bar("c2", 1, "D", "C")
-        self.body("rod", B=(0, 0), C=(2 * s, 0), F=(s, 0))
-        self.bar("b1", 0.4, "E", "M")
-        self.bar("b2", 0.6, "M", "F")
+        last = f"M{len(self.braces)}"
+        self.body("rod", B=(0, 0), C=(2 * s, 0), **{last: (s, 0)})
+        names = [f"b{k + 1}" for k in range(len(self.braces))]
+        for k, (name, length) in enumerate(zip(names, self.braces, strict=True)):
+            self.bar(name, length, f"M{k}", f"M{k + 1}")
+        chain = ["ground", *names, "rod"]
         for name, i, j in (
             ("A", "ground", "c1"),
             ("B", "c1", "rod"),
             ("C", "c2", "rod"),
             ("D", "ground", "c2"),
-            ("E", "ground", "b1"),
-            ("M", "b1", "b2"),
-            ("F", "b2", "rod"),
+            *((f"M{k}", i, j) for k, (i, j) in enumerate(pairwise(chain))),
         ):
             self.pin(name, f"{i}.{name}", f"{j}.{name}")
         self.set = {"c1.angle": 1.2}
-        self.guess = {"c2.angle": 1.2, "rod.angle": 0, "b1.angle": 1.21, "b2.angle": 1.2}
+        self.guess = {
+            "c2.angle": 1.2,
+            "rod.angle": 0,
+            **dict.fromkeys((f"{name}.angle" for name in names), 1.2),
+            "b1.angle": 1.21,
+        }
+
+
+class Pieces(Mechanism):
+    """Two bars in line between two guides, together as long as their distance."""
+
+    linear, more = ({"b1.angle": 1}, 0.0), (({"b2.angle": 1}, 0.0),)
+    over, shared = "left.y", "M"
+
+    def build(self):
+        s, m = self.size, self.model
+        m.ground.points(A=(0, 0), B=(3 * s, 0))
+        self.bar("b1", 1, "P", "M")
+        self.bar("b2", 2, "M", "Q")
+        for name, at, body in (("L", "A", "left"), ("R", "B", "right")):
+            self.body(body, P=(0, 0))
+            m.translational(name, f"ground.{at}", f"{body}.P", axes=(math.pi / 2, math.pi / 2))
+        self.pin("J1", "left.P", "b1.P")
+        self.pin("M", "b1.M", "b2.M")
+        self.pin("J2", "right.P", "b2.Q")
+        self.set, self.guess = {"left.y": 0.5 * s}, {"b1.angle": 0.02, "b2.angle": -0.01}
+
+
+class ThreeBraces(Braces):
+    """A parallelogram with three bars in line, together as long as its cranks."""
+
+    linear = {"b2.angle": 1, "b1.angle": -1}, 0.0
+    more = (({"b3.angle": 1, "b1.angle": -1}, 0.0),)
+    braces = 0.4, 0.25, 0.35
 
 
 class ScottRussell(Mechanism):
@@ -139,7 +179,7 @@ def near(found, exact, unit, tolerance):
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
-@pytest.mark.parametrize("kind", [Platen, Slots, Braces, ScottRussell])
+@pytest.mark.parametrize("kind", [Platen, Slots, Braces, Pieces, ThreeBraces, ScottRussell])
 def test_it_moves_as_with_the_linear_constraint(kind, size):
     mass = 1 / size
     one, other = kind(size, mass, False), kind(size, mass, True)

@@ -3,10 +3,9 @@
 use super::conditions::Condition;
 use super::options::{kind, Reader};
 use crate::elements::Group;
-use crate::expression::suggest::did_you_mean;
 use crate::integrate::Direction;
 use crate::math::Listed;
-use crate::model::{Problem, Value as Written};
+use crate::model::{did_you_mean, Problem, Value as Written};
 
 /// The name of the event of the option `stop`.
 pub const STOP: &str = "stop";
@@ -82,7 +81,8 @@ kind! {
             if known.contains(&name) {
                 return Ok(());
             }
-            let hint = did_you_mean(name, &known).map_or(String::new(), |hint| format!("; {hint}"));
+            let hint = did_you_mean(name, &known, "drivers");
+            let hint = hint.map_or(String::new(), |hint| format!("; {hint}"));
             Err(Problem::new(format!("there is no driver '{name}'{hint}")))
         })
     }
@@ -97,7 +97,8 @@ kind! {
             let mut found = Vec::new();
             for name in names {
                 if !known.contains(&name) {
-                    let hint = did_you_mean(&name, &known);
+                    let known = known.iter().map(String::as_str).list();
+                    let hint = did_you_mean(&name, &known, "parameters");
                     let hint = hint.map_or(String::new(), |hint| format!("; {hint}"));
                     return inner.refuse(&name, format!("there is no parameter '{name}'{hint}"));
                 }

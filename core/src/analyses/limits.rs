@@ -5,17 +5,20 @@
 //! no limit before the mechanism returns to its start, after one or several turns. A length is unlimited if it exceeds
 //! [`FARTHEST`] times the size of the mechanism.
 
-use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Reason, ALIKE};
+use super::kinematics::{
+    driven, driven_value, same, without_driver, written, Continuation, Failure, Limit, Reason,
+    ALIKE,
+};
 use super::options::{name, options};
 use super::record::{
     Analysis, Fact, NamedNumber, NumberList, Observer, Outcome, Record, RunResult, StartState,
     Subject,
 };
 use super::{second_order, State};
-use crate::elements::QuantityKind;
+use crate::elements::{Group, QuantityKind};
 use crate::integrate::Flow;
 use crate::math::Listed;
-use crate::model::{size, Model};
+use crate::model::{size, Model, Problem};
 use serde_json::json;
 use std::f64::consts::TAU;
 
@@ -30,7 +33,7 @@ options! {
     /// contact with restitution, or the end of a curve. An angle without limits makes full turns.
     Options, "limits", "Limits" () {
         /// Driver, or position quantity such as `crank.angle`. If absent, the only driver.
-        over: Option<name> = None,
+        over: Option<driven_value> = None,
         /// State at which the analysis starts: "start", or the name of an earlier analysis to use
         /// its final state. If absent, the final state of the previous analysis.
         from: Option<name> = None,
@@ -53,6 +56,14 @@ impl Analysis for Options {
             NumberList::one(f64::from(is_angle && is_free))
         }),
     ];
+
+    fn ends(&self, model: &Model, begin: Option<f64>) -> Result<Option<f64>, Vec<Problem>> {
+        let driven = model.constraints.iter().any(|item| item.group == Group::Drivers);
+        match self.over.is_some() || driven {
+            true => Ok(begin),
+            false => Err(vec![without_driver("the model has no driver that acts")]),
+        }
+    }
 
     fn run(&self, subject: &Subject<'_>, start: &StartState, observer: Observer<'_>) -> RunResult {
         let over = match &self.over {

@@ -67,3 +67,30 @@ pub(super) fn independent(forms: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     }
     basis
 }
+
+/// Linear forms whose squares have the forms, or their negatives, as sums, by Cholesky's method with pivots. None if a
+/// form has values of both signs.
+pub(super) fn lines(forms: &[Vec<f64>], n: usize) -> Option<Vec<Vec<f64>>> {
+    let zero = ZERO * forms.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let mut found = Vec::new();
+    for form in forms {
+        let sign = (0..n).map(|k| form[k * n + k]).sum::<f64>().signum();
+        let mut rest = form.iter().map(|x| sign * x).list();
+        for _ in 0..n {
+            let pivot = (0..n).max_by(|a, b| rest[a * n + a].total_cmp(&rest[b * n + b]))?;
+            let value = rest[pivot * n + pivot];
+            if value <= zero {
+                break;
+            }
+            let line = (0..n).map(|k| rest[pivot * n + k] / value.sqrt()).list();
+            for (row, x) in rest.chunks_mut(n).zip(&line) {
+                row.iter_mut().zip(&line).for_each(|(entry, y)| *entry -= x * y);
+            }
+            found.push(line);
+        }
+        if !rest.iter().all(|x| x.abs() <= zero) {
+            return None;
+        }
+    }
+    Some(found)
+}

@@ -2,16 +2,17 @@
 //! a link that is as long as the distance of two parallel guides can only stay perpendicular to them.
 //!
 //! If rows of Φ_q depend on each other, Σ y_k Φ_q,k = 0, velocities must also satisfy B(v, v) = Σ y_k vᵀ Φ_qq,k v = 0.
-//! If B = (l·v)², then l·v = 0, and the mechanism moves as if a linear constraint with the row l were written. That
-//! constraint keeps a coordinate, or the difference of two angles, whose derivative is l up to the rows of Φ_q. It is
-//! added to the model. The dependent equations then follow from the others at and near this position, which is
-//! verified: they are redundant equations of the extended model.
+//! If B = (l·v)², then l·v = 0, and the mechanism moves as if a linear constraint with the row l were written. A sum of
+//! such squares, as for three bars in line, gives one row for each. Such a constraint keeps a coordinate, or the
+//! difference of two angles, whose derivative is l up to the rows of Φ_q. It is added to the model. The dependent
+//! equations then follow from the others at and near this position, which is verified: they are redundant equations of
+//! the extended model.
 
 use super::closing::{Closing, Halt};
 use super::dependence::{self, Dependent};
 use super::freedoms::{freedoms, nearly_free};
 use super::mobility::{beyond_doubt, neighbour, plain, Mobility, EXCURSIONS};
-use super::second_forms::{forms, independent};
+use super::second_forms::{forms, independent, lines};
 use crate::elements::{holding, BodyId, Coordinate, CoordinateOf, Group};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
@@ -69,7 +70,7 @@ pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -
 }
 
 /// The implied linear constraints at a position where equations of joints depend on each other. None if the forms are
-/// not squares of linear forms, or if no motion is left.
+/// not sums of squares of linear forms, or if no motion is left.
 fn implied(
     model: &Model,
     t: f64,
@@ -80,11 +81,10 @@ fn implied(
     let moving = |k: &usize| !model.constraints[*k].driven;
     let of_joints = singular.iter().filter(|one| one.group.iter().all(moving)).list();
     let free = freedoms(model, t, q, |item| !item.driven)?;
-    let basis = independent(forms(model, t, q, &of_joints, &free));
-    if basis.is_empty() || basis.len() >= free.len() {
+    let kept = squares(model, &free, &forms(model, t, q, &of_joints, &free))?;
+    if kept.len() >= free.len() {
         return None;
     }
-    let kept = squares(model, &free, &basis)?;
     let extended = extended(model, q, &kept);
     let mobility = plain(&extended, t, q, stop);
     let redundant = mobility.redundant_equations.len();
@@ -202,8 +202,27 @@ fn least_squares(forms: &[Vec<f64>], slopes: &[Vec<f64>], n: usize) -> Vec<f64> 
     x
 }
 
-/// Coordinates and differences of angles whose squares span the forms, one for each form.
-fn squares(model: &Model, free: &[Vec<f64>], basis: &[Vec<f64>]) -> Option<Vec<Kept>> {
+/// Coordinates and differences of angles whose squares span the forms, one for each form; or those whose squares have
+/// the forms as sums.
+fn squares(model: &Model, free: &[Vec<f64>], forms: &[Vec<f64>]) -> Option<Vec<Kept>> {
+    let square = |l: &[f64]| l.iter().flat_map(|a| l.iter().map(move |b| a * b)).list();
+    spanning(model, free, &independent(forms.to_vec()), square).or_else(|| {
+        let lines = independent(lines(forms, free.len())?);
+        spanning(model, free, &lines, <[f64]>::to_vec)
+    })
+}
+
+/// Coordinates and differences of angles whose images span a space with this orthonormal basis, one for each dimension.
+/// The image is that of the rate along the freedoms, a vector of length 1. None if there are none, or too few.
+fn spanning(
+    model: &Model,
+    free: &[Vec<f64>],
+    basis: &[Vec<f64>],
+    image: impl Fn(&[f64]) -> Vec<f64>,
+) -> Option<Vec<Kept>> {
+    if basis.is_empty() {
+        return None;
+    }
     let scales = column_scales(model);
     let (mut kept, mut spanned) = (Vec::new(), Vec::new());
     for candidate in candidates(model) {
@@ -212,12 +231,12 @@ fn squares(model: &Model, free: &[Vec<f64>], basis: &[Vec<f64>]) -> Option<Vec<K
         if size <= EQUAL {
             continue;
         }
-        let square = l.iter().flat_map(|a| l.iter().map(move |b| a * b / size)).list();
+        let image = image(&l.iter().map(|x| x / size.sqrt()).list());
         let with = |forms: &[Vec<f64>]| {
-            independent(forms.iter().cloned().chain([square.clone()]).list()).len() - forms.len()
+            independent(forms.iter().cloned().chain([image.clone()]).list()).len() - forms.len()
         };
         if with(basis) == 0 && with(&spanned) > 0 {
-            spanned = independent(spanned.into_iter().chain([square]).list());
+            spanned = independent(spanned.into_iter().chain([image]).list());
             kept.push(candidate);
         }
         if kept.len() == basis.len() {

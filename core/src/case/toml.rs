@@ -44,6 +44,9 @@ fn range(span: Span) -> Range<usize> {
 /// The message of the parser, with the expected tokens.
 fn message(error: &ParseError) -> String {
     let mut text = error.description().to_string();
+    if text.starts_with("invalid boolean") {
+        return "string values must be quoted".to_string(); // a word of letters only
+    }
     if text.starts_with("string values") && error.unexpected().is_none_or(|span| span.is_empty()) {
         return "the value is missing".to_string();
     }

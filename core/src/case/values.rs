@@ -58,7 +58,10 @@ pub(super) fn pair(report: &mut ProblemList, node: &Node) {
             report.items(items, number);
         }
         Data::List(items) => {
-            report.say(format!("a list of {}; must be a list of two numbers [x, y]", items.len()));
+            let n = items.len();
+            // [0,5, 0] is a slip for [0.5, 0]
+            let point = if n > 2 { "; the decimal mark is a point" } else { "" };
+            report.say(format!("a list of {n}; must be a list of two numbers [x, y]{point}"));
         }
         _ => wrong(report, node, "a list of two numbers [x, y]"),
     }

@@ -59,7 +59,7 @@ fn a_massless_body_without_a_determined_motion_is_named() {
         let Err(Reason::Singular { name, message, .. }) = all(&m, &turned(&state, count)) else {
             panic!("determined")
         };
-        assert!(name == "tail" && message.contains("nothing resists tail.angle"), "{message}");
+        assert!(name == "tail" && message.contains("no inertia resists tail.angle"), "{message}");
     }
     // a rod to ground determines its motion
     let rod = "[joints.d]\ntype = \"distance\"\ni = \"ground.O\"\nj = \"tail.Q\"\nlength = 1.5\n";

@@ -152,8 +152,8 @@ j = "bob.P"
 
 #[test]
 fn a_bob_without_inertia_on_a_cart_without_mass() {
-    let text = cart("0", "0").expect("nothing resists the cart when the bob is below it");
-    assert!(text.contains("nothing resists cart.x"), "{text}");
+    let text = cart("0", "0").expect("no inertia resists the cart when the bob is below it");
+    assert!(text.contains("no inertia resists cart.x"), "{text}");
     assert!(text.contains("its joints (slide, pin) leave it a freedom"), "{text}");
     assert!(text.contains("set its mass, or hold it"), "{text}");
     assert!(!text.contains("no joint"), "{text}");

@@ -144,7 +144,10 @@ fn a_massless_body_without_a_determined_motion_is_refused() {
         for failure in failures {
             let Failure::Motion(found) = &failure else { panic!("{failure:?}") };
             let Reason::Singular { name, message, .. } = &found.reason else { panic!("{found:?}") };
-            assert!(name == "tail" && message.contains("nothing resists tail.angle"), "{message}");
+            assert!(
+                name == "tail" && message.contains("no inertia resists tail.angle"),
+                "{message}"
+            );
         }
         let (m, state) = hung(1e-6, spring);
         assert_eq!(

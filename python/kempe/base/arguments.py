@@ -36,20 +36,45 @@ def explained(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def explain_methods(kind: type[R]) -> type[R]:
-    """Explain wrong calls of the public methods of a class, also of inherited ones."""
+    """Explain wrong calls of the public methods of a class, also of inherited ones.
+
+    An attribute that does not exist is explained too.
+    """
     for name in dir(kind):
         method = inspect.getattr_static(kind, name)
         public = not name.startswith("_") and isinstance(method, FunctionType)
         if public and not hasattr(method, _MARK):
             setattr(kind, name, explained(method))
+    return explain_attributes(kind)
+
+
+def explain_attributes(kind: type[R]) -> type[R]:
+    """Explain attributes that a class does not have, by their names and words of other programs."""
+    if not hasattr(kind, "__getattr__"):
+        setattr(kind, "__getattr__", _missing)  # noqa: B010 - types know the attributes without it
     return kind
 
 
+def _missing(self: object, name: str) -> NoReturn:
+    kind = type(self)
+    if name in dir(kind):  # a property raised an AttributeError of its own
+        object.__getattribute__(self, name)
+    raise AttributeError(
+        missing_attribute(kind.__name__, name, () if name[0] == "_" else dir(self))
+    )
+
+
 def explain_functions(package: dict[str, Any]) -> None:
-    """Explain wrong calls of the public functions of a package, given its ``globals()``."""
+    """Explain wrong calls and names of public functions of a package, given its ``globals()``."""
     for name in package["__all__"]:
         if isinstance(package[name], FunctionType) and not hasattr(package[name], _MARK):
             package[name] = explained(package[name])
+
+    def missing(name: str) -> NoReturn:
+        known = () if name[0] == "_" else package["__all__"]
+        raise AttributeError(missing_attribute(f"module {package['__name__']!r}", name, known))
+
+    package.setdefault("__getattr__", missing)
 
 
 class Explained(type):
@@ -76,7 +101,11 @@ def missing_attribute(owner: str, name: str, known: Sequence[str]) -> str:
         hint = "give parameters to kp.Model(parameters={'k': 2}); m.with_parameters changes values"
         return f"{owner} has no attribute {name!r}: {hint}"
     names = suggested(name, known, "names")
-    return f"{owner} has no attribute {name!r}" + (f"; {question(names)}" if names else "")
+    message = f"{owner} has no attribute {name!r}"
+    if names:
+        return f"{message}; {question(names)}"
+    public = [one for one in known if not one.startswith("_")]
+    return f"{message}; it has {few(public, 12)}" if public else message
 
 
 def _explain(

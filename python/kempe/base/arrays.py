@@ -12,6 +12,8 @@ from kempe.errors import ModelError
 Floats: TypeAlias = NDArray[np.float64]
 
 _FLOAT = np.dtype(np.float64)
+#: Numbers below this part of the largest of their kind are rounding errors.
+ROUNDING = 1e-12
 
 
 def fixed(values: Any) -> Floats:
@@ -57,3 +59,15 @@ def finite(name: str, values: object, shape: tuple[int, ...]) -> Floats:
     if not np.isfinite(found).all():
         raise ModelError(f"{name} contains a number that is not finite")
     return found
+
+
+def tidy(values: Floats, scale: float = 0.0) -> list[float]:
+    """Numbers of one kind, with rounding errors replaced by zeros.
+
+    Args:
+        values: the numbers.
+        scale: a natural magnitude of the numbers; the largest number is used if it is larger.
+    """
+    least = ROUNDING * float(np.abs(values).max(initial=scale))
+    tidied: list[float] = np.where(np.abs(values) <= least, 0.0, values).tolist()
+    return tidied

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
-from typing import TypeVar
+from types import MappingProxyType
+from typing import Protocol, TypeVar
 
 from kempe.errors import ModelError
 
@@ -64,6 +65,34 @@ def few(names: Iterable[str], most: int = 6) -> str:
     given = list(names)
     more = f" and {len(given) - most} more" if len(given) > most else ""
     return ", ".join(given[:most]) + more
+
+
+class Named(dict[str, T]):
+    """A mapping whose unknown keys are errors with a suggestion.
+
+    Attributes:
+        what: kind of its values, such as "event".
+    """
+
+    def __init__(self, what: str, values: Mapping[str, T]) -> None:
+        super().__init__(values)
+        self.what = what
+
+    def __missing__(self, key: object) -> T:
+        raise unknown(self.what, key, self)
+
+
+class _HasName(Protocol):
+    @property
+    def name(self) -> str: ...
+
+
+E = TypeVar("E", bound=_HasName)
+
+
+def named(what: str, elements: Iterable[E]) -> Mapping[str, E]:
+    """Elements by name, read-only, as in ``Named``."""
+    return MappingProxyType(Named(what, {element.name: element for element in elements}))
 
 
 def entry(what: str, name: object, known: Mapping[str, T]) -> T:

@@ -132,7 +132,10 @@ def _range(text: str) -> tuple[str, Mapping[str, Any]]:
             raise ValueError
         return name, {"from": float(first), "to": last, "n": count, "scale": scale}
     except (ValueError, IndexError):
-        hint = "such as --over k=1e3:1e5:50:log; numbers are in SI units and rad"
+        hint = (
+            "such as --over k=1e3:1e5:50:log; N is a whole number such as 50, and the others are in"
+            " SI units and rad"
+        )
         raise ModelError(
             f"--over {text}: must be NAME=FROM:TO:N or NAME=FROM:TO:N:log", hint=hint
         ) from None

@@ -16,7 +16,7 @@ from kempe.design.places import is_pin
 from kempe.design.shaking import shaking
 from kempe.design.weights import least
 from kempe.errors import ModelError
-from kempe.model.values import refuse
+from kempe.model.values import instance, refuse
 from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
@@ -148,6 +148,9 @@ class _Measure:
     """
 
     def __init__(self, case: Case, of: str, about: str | tuple[float, float]) -> None:
+        from kempe.case import Case
+
+        instance(case, Case, "a case, as kp.load(path) returns")
         self.case, self.of, self.about = case, of, about
         drivers = list(case.model.tree().get("drivers", {}))
         if of == "torque" and len(drivers) != 1:

@@ -21,6 +21,7 @@ from kempe.draw.player import page, player
 from kempe.draw.sampling import FRAMES_PER_SECOND, Span
 from kempe.draw.scene import playback_rate, scene
 from kempe.errors import ModelError
+from kempe.model.values import instance
 from kempe.results.solution import Solution
 
 FORMATS = ("html", "mp4", "gif")
@@ -119,6 +120,7 @@ def animate(
     if kind not in FORMATS:
         raise ModelError(f"{path}: the format is unknown", hint="end it in .html, .mp4 or .gif")
     _refuse_wrong(fps=fps, speed=speed)
+    instance(solution, (Solution, ModeShape), "a solution, or a mode such as modes.shape(0)")
     if isinstance(solution, ModeShape):
         return _animate_mode(solution, Path(path), kind, size, fps, labels=labels)
     first, last = float(solution.t[0]), float(solution.t[-1])

@@ -15,6 +15,7 @@ from kempe.base.arguments import explained
 from kempe.base.names import one_of
 from kempe.draw.scene import scene
 from kempe.errors import ModelError
+from kempe.model.values import instance
 from kempe.results.solution import Solution
 from kempe.results.state import State
 
@@ -68,6 +69,7 @@ def write_dxf(
         FileError: the file cannot be written.
     """
     one_of("unit", unit, UNITS)
+    instance(drawn, (State, Solution), "a state or a solution")
     if isinstance(drawn, State) and (times or paths):
         raise ModelError("a state has no times and paths", hint="give the solution")
     first = drawn if isinstance(drawn, State) else _at(drawn, float(drawn.t[0]))

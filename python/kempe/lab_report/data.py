@@ -7,11 +7,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from kempe import mobility
+from kempe.base.arrays import ROUNDING
 from kempe.base.display_units import Shown, display, heading
 from kempe.errors import KempeError
 from kempe.lab_report.blocks import Block, Cell, Paragraph, Points, Section, Table
 from kempe.lab_report.figures import drawn
-from kempe.lab_report.printed import ROUNDING, number, text
+from kempe.lab_report.printed import number, text
 from kempe.lab_report.subject import Subject
 from kempe.model.catalogue import about, declared
 from kempe.model.doubts import NO_GRAVITY

@@ -7,11 +7,12 @@ from itertools import groupby
 
 import numpy as np
 
+from kempe.base.arrays import tidy
 from kempe.base.display_units import display, heading, units
 from kempe.errors import KempeError
 from kempe.lab_report.blocks import Block, Cell, Matrix, Number, Paragraph, Points, Section, Table
 from kempe.lab_report.data import initial_set
-from kempe.lab_report.printed import FEW, number, quantity, tidy
+from kempe.lab_report.printed import FEW, number, quantity
 from kempe.lab_report.subject import Subject
 from kempe.results.matrices.labelled import Labelled
 from kempe.results.matrices.labelled import show as labelled

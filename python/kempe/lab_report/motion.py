@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from kempe.base.arrays import ROUNDING
 from kempe.base.display_units import display, heading
 from kempe.base.names import few
 from kempe.lab_report.blocks import Block, Cell, Number, Paragraph, Section, Table
 from kempe.lab_report.figures import MOST, Figures
-from kempe.lab_report.printed import FEW, ROUNDING, number, quantity
+from kempe.lab_report.printed import FEW, number, quantity
 from kempe.results.remarks import by_choice, starred, when
 from kempe.results.solution import Solution
 

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from kempe.base.arrays import Floats
 from kempe.base.display_units import display
 from kempe.lab_report.blocks import Number
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 #: Digits of a number, and of the size of an error.
 DIGITS, FEW = 6, 3
-#: Numbers below this part of the largest of their kind are rounding errors.
-ROUNDING = 1e-12
 
 
 def text(value: float, digits: int = DIGITS) -> str:
@@ -33,18 +28,6 @@ def number(value: float, unit: str = "", usual: str | None = None, digits: int =
     """
     divisor = display(unit, usual).divisor if unit else 1.0
     return Number(float(value), text(float(value) / divisor, digits))
-
-
-def tidy(values: Floats, scale: float = 0.0) -> list[float]:
-    """Numbers of one kind, with rounding errors replaced by zeros.
-
-    Args:
-        values: the numbers.
-        scale: a natural magnitude of the numbers; the largest number is used if it is larger.
-    """
-    least = ROUNDING * float(np.abs(values).max(initial=scale))
-    tidied: list[float] = np.where(np.abs(values) <= least, 0.0, values).tolist()
-    return tidied
 
 
 def quantity(value: float, unit: str, usual: str | None = None, digits: int = DIGITS) -> str:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from kempe import _core
 from kempe._upwards import CALLS
-from kempe.base.names import entry
+from kempe.base.names import Named, entry, named
 from kempe.model.functions import FunctionLaw, Functions, refuse_saving
 from kempe.model.infos import (
     ACCELERATIONS,
@@ -194,13 +194,12 @@ class CompiledModel:
     @property
     def parameters(self) -> Mapping[str, float]:
         """Values of the parameters."""
-        return MappingProxyType(self._about["parameters"])
+        return MappingProxyType(Named("parameter", self._about["parameters"]))
 
     @cached_property
     def tables(self) -> Mapping[str, TableInfo]:
         """The tables, each a function in SI units."""
-        infos = (TableInfo(self.core, entry) for entry in self._about["tables"])
-        return MappingProxyType({info.name: info for info in infos})
+        return named("table", (TableInfo(self.core, of) for of in self._about["tables"]))
 
     @property
     def n_q(self) -> int:
@@ -225,12 +224,12 @@ class CompiledModel:
     @cached_property
     def all_bodies(self) -> Mapping[str, BodyInfo]:
         """Ground and the moving bodies, in the order of q."""
-        return MappingProxyType({info.name: info for info in bodies(self._about["bodies"])})
+        return named("body", bodies(self._about["bodies"]))
 
     @cached_property
     def bodies(self) -> Mapping[str, BodyInfo]:
         """The moving bodies, in the order of q."""
-        return MappingProxyType({k: b for k, b in self.all_bodies.items() if b.number})
+        return named("body", (of for of in self.all_bodies.values() if of.number))
 
     @property
     def shown_bodies(self) -> Mapping[str, BodyInfo]:
@@ -254,8 +253,7 @@ class CompiledModel:
     @cached_property
     def constraints(self) -> Mapping[str, ConstraintInfo]:
         """Joints and drivers, in the order of Φ."""
-        infos = self._all_constraints
-        return MappingProxyType({info.name: info for info in infos if info.is_shown})
+        return named("joint or driver", (of for of in self._all_constraints if of.is_shown))
 
     def locks(self, beam: str) -> list[ConstraintInfo]:
         """The constraints that lock strains of the pieces of a beam, along the beam."""
@@ -275,13 +273,12 @@ class CompiledModel:
     @cached_property
     def forces(self) -> Mapping[str, ForceInfo]:
         """The force elements."""
-        infos = map(force, self._about["forces"])
-        return MappingProxyType({info.name: info for info in infos})
+        return named("force", map(force, self._about["forces"]))
 
     @cached_property
     def measures(self) -> Mapping[str, MeasureInfo]:
         """The measures, in the order of the file."""
-        return MappingProxyType({info.name: info for info in measure_infos(self)})
+        return named("measure", measure_infos(self))
 
     @cached_property
     def symbols(self) -> tuple[dict[str, Any], ...]:
@@ -383,7 +380,8 @@ class CompiledModel:
         return names + own
 
     def _group(self, group: str) -> Mapping[str, ConstraintInfo]:
-        return MappingProxyType({k: c for k, c in self.constraints.items() if c.group == group})
+        own = (of for of in self.constraints.values() if of.group == group)
+        return named(group.removesuffix("s"), own)
 
 
 def _restored(

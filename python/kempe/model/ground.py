@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from kempe.base.arguments import explain_methods
 from kempe.model.values import Outline, Pair, refuse
 
 if TYPE_CHECKING:
     from kempe.model.model import Model
 
 
+@explain_methods
 class Ground:
     """The fixed body; its frame is the global frame."""
 

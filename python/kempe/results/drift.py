@@ -5,12 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from kempe.base.arguments import explain_methods
 from kempe.base.arrays import Floats
 
 if TYPE_CHECKING:
     from kempe.results.solution import Solution
 
 
+@explain_methods
 @dataclass(frozen=True)
 class Drift:
     """Constraint violation over time, and the balance of the reactions.

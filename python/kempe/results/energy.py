@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from kempe.base.arguments import explain_methods
 from kempe.base.arrays import Floats, fixed
 
 #: Part of the potential energy below which its changes are rounding errors and those of closed
@@ -14,6 +15,7 @@ from kempe.base.arrays import Floats, fixed
 RESOLVED = 1e-6
 
 
+@explain_methods
 class Energy:
     """Energies over time, (n_t,), J, read-only."""
 

@@ -18,6 +18,7 @@ import numpy as np
 
 from kempe import _core
 from kempe.base.arrays import Floats, fixed
+from kempe.base.names import Named
 from kempe.errors import KempeError
 from kempe.results.fine import fine
 
@@ -101,7 +102,7 @@ def events(solution: Solution) -> Mapping[str, EventTimes]:
                 read = partial(_states, solution, times)
                 none = np.zeros((len(times), solution.compiled.n_multipliers))
                 found[name] = EventTimes(name, fixed(np.array(times)), fixed(none), read)
-    return MappingProxyType(found)
+    return MappingProxyType(Named("event", found))
 
 
 def warnings_of(solution: Solution) -> list[str]:

@@ -13,7 +13,7 @@ import numpy as np
 
 from kempe import _core
 from kempe.base.arrays import Floats
-from kempe.base.names import entry
+from kempe.base.names import unknown
 from kempe.model.measure_infos import MeasureInfo
 from kempe.results import remarks
 from kempe.results.dominant_frequency import dominant_frequency
@@ -54,8 +54,11 @@ class Measure:
 
     def __init__(self, solution: Solution, of: str | MeasureInfo) -> None:
         self._solution = solution
-        known = solution.compiled.measures
-        self.info = of if isinstance(of, MeasureInfo) else entry("measure", of, known)
+        if isinstance(of, str) and of not in solution.compiled.measures:
+            error = unknown("measure", of, solution.compiled.measures)
+            error.hint = f"{error.hint}; declare it as a measure of the model or the file"
+            raise error
+        self.info = solution.compiled.measures[of] if isinstance(of, str) else of
         self.t = solution.t
         self.values = values_of(solution, self.info)
 

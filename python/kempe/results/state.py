@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+import numpy as np
+
 from kempe._upwards import CALLS
 from kempe.base.arguments import explain_methods
-from kempe.base.arrays import Floats
+from kempe.base.arrays import Floats, tidy
 from kempe.base.display_units import display, heading
 from kempe.base.names import few
 from kempe.model.compiled import CompiledModel
@@ -18,6 +20,7 @@ from kempe.results.assembly_report import AssemblyReport
 from kempe.results.matrices.values import Matrices, matrices
 from kempe.results.motion import Motion
 from kempe.results.origin import Origin
+from kempe.results.sizes import largest, size_of
 from kempe.results.views.body import BodyView
 from kempe.results.views.constraint import ConstraintView
 from kempe.results.views.force import ForceView
@@ -150,19 +153,33 @@ class State(Motion):
     def table(self) -> tuple[list[str], list[list[str]]]:
         """Position and velocity of each body in display units: header and rows of texts.
 
-        Angles are in degrees unless ``kp.units`` chose another unit.
+        Angles are in degrees unless ``kp.units`` chose another unit. Rounding errors are 0.
         """
         columns = [(name, self.variable.rate(unit), usual) for name, unit, usual in _COLUMNS]
         header = [heading(name, unit, usual) for name, unit, usual in columns]
-        rows = []
-        for name, info in self.compiled.named_bodies.items():
-            body, row = self.body(name), [name]
+        tidied, rows = self._tidied(), []
+        for k, (name, info) in enumerate(self.compiled.named_bodies.items()):
+            row = [name]
             for quantity, unit, usual in columns:
                 turning = quantity in ("angle", "omega")
-                value = getattr(body, quantity) / display(unit, usual).divisor
+                value = tidied[quantity][k] / display(unit, usual).divisor
                 row.append("" if turning and not info.turns else f"{value + 0.0:.6g}")
             rows.append(row)
         return ["body", *header], rows
+
+    def _tidied(self) -> dict[str, list[float]]:
+        """Each quantity of the bodies, with rounding errors replaced by zeros."""
+        bodies = [self.body(name) for name in self.compiled.named_bodies]
+        read = {name: np.array([getattr(body, name) for body in bodies]) for name, *_ in _COLUMNS}
+        size = size_of(self)
+        speed, turning = largest(read["vx"], read["vy"]), largest(read["omega"])
+        scales = {
+            "m": size,
+            "rad": 1.0,
+            "m/s": max(speed, size * turning),
+            "rad/s": max(turning, speed / size if size else 0.0),
+        }
+        return {name: tidy(read[name], scales[unit]) for name, unit, _ in _COLUMNS}
 
     def __str__(self) -> str:
         header, rows = self.table()

@@ -6,6 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kempe._version import __version__
 from kempe.base.arrays import Floats
@@ -13,15 +14,19 @@ from kempe.results.extremes import Sampled
 from kempe.results.remarks import unbounded_at
 from kempe.results.settling import settling
 from kempe.results.singular import singular_positions
+from kempe.results.sizes import size_of
 
 if TYPE_CHECKING:
-    from kempe.model.compiled import CompiledModel
     from kempe.results.motion import Motion
     from kempe.results.solution import Solution
     from kempe.results.state import State
 
 #: Angles below this are rounding errors, rad.
 _NO_ANGLE = 1e-9
+#: Largest number of coordinates of which the free ones are found.
+_MOST = 300
+#: Part of the largest singular value below which an equation depends on others.
+_DEPENDENT = 1e-7
 
 
 def summary(solution: Solution) -> dict[str, Any]:
@@ -54,9 +59,7 @@ def summary(solution: Solution) -> dict[str, Any]:
         "newton_euler": solution.newton_euler.largest,
         "measures": [measure(solution, name) for name in compiled.measures],
         "events": {name: event.t.tolist() for name, event in solution.events.items()},
-        "settling": []
-        if _is_driven(compiled)
-        else [settling_of(sampled, name) for name in compiled.shown_bodies],
+        "settling": [settling_of(sampled, name) for name in _may_settle(solution.final)],
         "statistics": {k: v for k, v in solution.statistics.items() if k != "singular"},
     }
 
@@ -196,10 +199,39 @@ def kinetic_energy(motion: Motion) -> Floats:
     return total
 
 
-def _is_driven(model: CompiledModel) -> bool:
-    """Whether drivers determine the motion, so that nothing can settle."""
-    plain = model.redundancy == "refuse" and not model.released
-    return plain and model.n_rows == model.n_q
+def _may_settle(state: State) -> list[str]:
+    """The bodies whose rest the drivers that act do not decide.
+
+    Their angle is free, or joints alone hold it while the body may move.
+    """
+    model = state.compiled
+    shown = list(model.shown_bodies)
+    acting = set(model.drivers) - set(model.released)
+    if not acting:
+        return shown
+    if model.n_q > _MOST:
+        driven = model.redundancy == "refuse" and not model.released and model.n_rows == model.n_q
+        return [] if driven else shown
+    names, units = zip(*model.acting_rows(), strict=True)
+    of_joints = np.array([name.rpartition(".")[0] not in acting for name in names])
+    size = size_of(state) or 1.0
+    of = [np.where(np.array(of) == "m", size, 1.0) for of in (model.column_units(), units)]
+    phi_q = state.matrices().Phi_q * of[0] / of[1][:, None]
+    free, undriven = _free(phi_q), _free(phi_q[of_joints])
+    places = {name: model.bodies[name].columns for name in shown}
+    turns = {name: at.stop - 1 for name, at in places.items()}
+    return [
+        name
+        for name in shown
+        if free[turns[name]] or (free[places[name]].any() and not undriven[turns[name]])
+    ]
+
+
+def _free(phi_q: Floats) -> NDArray[np.bool_]:
+    """Whether each coordinate may change while Φ_q v = 0, (n_q,)."""
+    _, sizes, basis = np.linalg.svd(phi_q)
+    free = basis[int((sizes > _DEPENDENT * sizes.max(initial=0.0)).sum()) :]
+    return np.asarray(np.abs(free).max(axis=0, initial=0.0) > _DEPENDENT)
 
 
 def settling_of(sampled: Sampled, name: str) -> dict[str, Any]:

@@ -26,7 +26,7 @@ NUMBERS: Mapping[str, Mapping[str, str]] = {
     kind: dict(analysis.get("numbers", ())) for kind, analysis in declared("analyses").items()
 }
 #: The way to measure the result of another analysis.
-_ANOTHER = 'name another analysis: analysis="NAME", or --analysis NAME'
+ANOTHER = 'name another analysis: analysis="NAME", or --analysis NAME'
 #: The force or torque of a holder or driver at rest, such as ``effort.crank.angle``.
 _EFFORT = "effort."
 _PLACED = re.compile(r"(.+?)(?:\[(-?\d+)\])?")
@@ -53,7 +53,7 @@ def unit_of(model: CompiledModel, entry: Mapping[str, Any], text: str) -> str:
     if kind != "equilibrium" or not ("." in name or name in model.measures):
         error = unknown(f"number of the result of {kind}", name, known)
         if "." in name:
-            error.hint = f"{kind} has the numbers {few(known)}; for others, {_ANOTHER}"
+            error.hint = f"{kind} has the numbers {few(known)}; for others, {ANOTHER}"
         raise error
     if name.startswith(_EFFORT):
         return _unit_of_effort(model, entry, name.removeprefix(_EFFORT))
@@ -61,12 +61,18 @@ def unit_of(model: CompiledModel, entry: Mapping[str, Any], text: str) -> str:
     if last in STATISTICS and quantity:
         raise ModelError(
             f"measures: {text!r} is a statistic of a motion, and an equilibrium is one instant",
-            hint=f"write {quantity}, or {_ANOTHER}",
+            hint=f"write {quantity}, or {ANOTHER}",
         )
     info = measure_info(model, _expression(model, name))
     if info.is_of_run:
         refuse("measures", f"{text!r} is a quantity of a whole run, which an equilibrium has not")
     return info.unit
+
+
+def kinds_with(text: str) -> list[str]:
+    """The types of analyses whose results have a number."""
+    name, _ = _parts(text)
+    return [kind for kind, known in NUMBERS.items() if name in known]
 
 
 def over_of(model: CompiledModel, entry: Mapping[str, Any]) -> Variable:

@@ -12,7 +12,7 @@ import numpy as np
 from kempe.base.arrays import Floats
 from kempe.base.names import unknown
 from kempe.errors import ModelError
-from kempe.model.values import mapping, refuse
+from kempe.model.values import instance, mapping, refuse
 
 if TYPE_CHECKING:
     from kempe.case import Case
@@ -133,6 +133,9 @@ def present(case: Case, names: Iterable[str]) -> dict[str, float]:
     Raises:
         KempeError: the mechanism does not close, or there is no such coordinate.
     """
+    from kempe.case import Case
+
+    instance(case, Case, "a case, as kp.load(path) returns")
     parameters, start = case.model.parameters, None
     found = {}
     for name in names:

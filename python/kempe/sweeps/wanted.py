@@ -15,7 +15,7 @@ from kempe.model.values import refuse, texts
 from kempe.results.measures import STATISTICS, Measure
 from kempe.results.solution import Solution
 from kempe.results.variable import TIME, Variable
-from kempe.sweeps.numbers import driven_model, unit_of
+from kempe.sweeps.numbers import ANOTHER, driven_model, kinds_with, unit_of
 from kempe.sweeps.remarked import mark_of_measure, mark_of_number
 
 if TYPE_CHECKING:
@@ -94,6 +94,32 @@ def read_wanted(
     return found
 
 
+def _not_a_statistic(model: CompiledModel, text: str) -> ModelError:
+    """The error for a text that does not end with a statistic."""
+    if kinds := kinds_with(text):
+        hint = f"{ANOTHER}, of type {' or '.join(kinds)}"
+        return ModelError(f"measures: {text!r} is not a number of a motion", name=text, hint=hint)
+    quantity, _, word = text.rpartition(".")
+    if not quantity or text in model.measures or _is_read(model, text):
+        of = "crank.omega" if word in ALL else text
+        hint = f"write {of}.max or another statistic: {', '.join(ALL)}"
+        return ModelError(f"measures: {text!r} is not QUANTITY.STATISTIC", name=text, hint=hint)
+    return unknown(f"statistic in measures ({text!r})", word, ALL)
+
+
+def _is_read(model: CompiledModel, text: str) -> bool:
+    try:
+        return bool(measure_info(model, text))
+    except ModelError:
+        return False
+
+
+def _not_a_measure(model: CompiledModel, name: str) -> ModelError:
+    error = unknown("measure", name, model.measures)
+    error.hint = f"{error.hint}; a quantity has a name such as crank.angle or C.force"
+    return error
+
+
 #: A statistic as a function, such as ``max(C.force)``.
 _CALLED = re.compile(rf"({'|'.join(ALL)})(?:\s*\(|\s)\s*([^()]+?)\s*\)?")
 
@@ -104,8 +130,10 @@ def _statistic(model: CompiledModel, text: str, variable: Variable) -> Wanted:
     if called := _CALLED.fullmatch(text):
         hint = f"write {called[2]}.{called[1]}"
         raise ModelError(f"measures: {text!r} is not QUANTITY.STATISTIC", name=text, hint=hint)
-    if statistic not in ALL:
-        raise unknown(f"statistic in measures ({text!r})", statistic, ALL)
+    if not name or statistic not in ALL:
+        raise _not_a_statistic(model, text)
+    if name.isidentifier() and name not in {*model.measures, *model.parameters, "t"}:
+        raise _not_a_measure(model, name)
     info = model.measures.get(name) or measure_info(model, name)
     timed = dict.fromkeys(("t_max", "t_min", "settling"), variable.unit)
     timed["frequency"] = "Hz" if variable.is_time else f"1/{variable.unit}"

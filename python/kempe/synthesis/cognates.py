@@ -8,6 +8,7 @@ import numpy as np
 
 from kempe.base.arguments import explained
 from kempe.errors import KempeError, ModelError
+from kempe.model.values import instance
 from kempe.synthesis import assemble
 from kempe.synthesis.assemble import Bars
 from kempe.synthesis.candidate import Candidate
@@ -35,6 +36,9 @@ def cognates(case: Case | Candidate) -> Found:
     Raises:
         ModelError: the case has other names, or P is at a pin.
     """
+    from kempe.case import Case
+
+    instance(case, (Candidate, Case), "a candidate or " + "a case, as kp.load(path) returns")
     pins = case.pins if isinstance(case, Candidate) else _pins(case)
     o, a, b, d, p = (np.array([[at]]) for at in pins)
     far = abs(b - a)

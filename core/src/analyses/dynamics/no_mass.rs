@@ -1,17 +1,17 @@
-//! Messages about coordinates whose motion nothing resists: bodies without mass or inertia.
+//! Messages about coordinates whose motion no inertia resists: bodies without mass or inertia.
 
 use crate::elements::BodyId;
 use crate::math::Listed;
 use crate::model::{beam_of, Model, Slots, BEAM, NODE};
 
-/// The name of a body, or of a joint with internal coordinates, and a message that nothing resists the motion of this
+/// The name of a body, or of a joint with internal coordinates, and a message that no inertia resists the motion of this
 /// coordinate.
 pub(super) fn undetermined(model: &Model, t: f64, column: usize) -> (String, String) {
     let owner = |slots: &Slots| slots.own.range().contains(&column);
     if let Some(k) = model.layout.constraints.iter().position(owner) {
         let name = model.constraints[k].name.clone();
         let message = format!(
-            "the place of {name} on its curve is not determined at t = {t:.6} s: nothing resists its motion along the curve"
+            "the place of {name} on its curve is not determined at t = {t:.6} s: no inertia resists its motion along the curve"
         );
         return (name, message);
     }
@@ -35,7 +35,7 @@ pub(super) fn undetermined(model: &Model, t: f64, column: usize) -> (String, Str
                 }
             };
             format!(
-                "the motion of {name} is not determined at t = {t:.6} s: nothing resists {name}.{coordinate}, because \
+                "the motion of {name} is not determined at t = {t:.6} s: no inertia resists {name}.{coordinate}, because \
                  {name} has no {set} and {leave}; set its {set}, or hold it with a joint or driver"
             )
         }

@@ -2,8 +2,8 @@
 
 use crate::analyses::assemble::position;
 use crate::analyses::options::{flag, interval, kind, name, options};
-use crate::expression::suggest::did_you_mean;
-use crate::model::{Model, Problem};
+use crate::math::Listed;
+use crate::model::{did_you_mean, Model, Problem};
 
 kind! {
     /// Names of position quantities.
@@ -47,7 +47,9 @@ fn conflict(options: &Options, model: &Model) -> Option<(&'static str, String)> 
         (Some(over), Some([first, last])) => {
             let known = &model.blueprint.parameters;
             if !known.contains(over) {
-                let hint = did_you_mean(over, known).map_or(String::new(), |h| format!("; {h}"));
+                let known = known.iter().map(String::as_str).list();
+                let hint = did_you_mean(over, &known, "parameters");
+                let hint = hint.map_or(String::new(), |hint| format!("; {hint}"));
                 return Some(("over", format!("there is no parameter '{over}'{hint}")));
             }
             let empty = "has no length; give two different values".to_string();

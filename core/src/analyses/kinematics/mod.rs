@@ -40,8 +40,10 @@ pub use dead_point::Limit;
 pub(in crate::analyses) use dead_point::{driven, in_line, written};
 pub use failure::{Failure, Reason};
 pub use motion::Motion;
+pub(in crate::analyses) use options::driven_value;
 pub use options::{InverseOptions, Options};
 pub use over::{driving, over, DrivenQuantity, Over};
+pub(in crate::analyses) use record::without_driver;
 pub use solution::Point;
 pub use works::{recorded, MotionRecorder, Recorded};
 

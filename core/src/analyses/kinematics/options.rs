@@ -1,11 +1,31 @@
 //! Options of kinematics and of inverse dynamics, which are the same.
 
-use crate::analyses::options::{count, flag, interval, name, number, options, positive};
+use super::over::position_named;
+use crate::analyses::options::{count, flag, interval, kind, name, number, options, positive};
+use crate::elements::Group;
+use crate::model::Value;
 
 /// Default number of values over a range: one value for each degree of a full turn.
 pub(super) const POINTS: usize = 361;
 /// Largest number of values or times of one motion.
 pub(super) const MOST_OUTPUTS: usize = 1_000_000;
+
+kind! {
+    /// A driver, or a position quantity such as `crank.angle`.
+    driven_value: String, Name, |reader, key| {
+        let Value::Text(name) = reader.get(key)? else {
+            return reader.refuse(key, "must be a name");
+        };
+        let items = &reader.model().constraints;
+        if items.iter().any(|item| item.group == Group::Drivers && item.name == *name) {
+            return Some(name.clone());
+        }
+        match position_named(reader.model(), name) {
+            Ok(_) => Some(name.clone()),
+            Err(problem) => reader.report(key, problem),
+        }
+    }
+}
 
 /// Declares an analysis of a driven motion.
 macro_rules! driven_motion {
@@ -19,7 +39,7 @@ macro_rules! driven_motion {
                 output_step: Option<positive> [s] = None,
                 /// Driver, or position quantity such as `crank.angle`, whose value replaces the
                 /// time as the independent variable.
-                over: Option<name> = None,
+                over: Option<driven_value> = None,
                 /// First and last value of `over`, in SI units and rad.
                 range: Option<interval> = None,
                 /// Number of values in the range, including both ends.

@@ -3,7 +3,8 @@
 //! The mechanism is rewritten so that the quantity equals t: in its driver, in the joint that has the quantity as a
 //! field, or in a new driver. In the laws of all other joints and drivers, t keeps its value at the start.
 
-use crate::analyses::{readings, State};
+use crate::analyses::readings::{self, Readable};
+use crate::analyses::State;
 use crate::elements::{self, Group};
 use crate::math::{Listed, ShortArray};
 use crate::model::{Definition, Entry, Model, Problem, Value};
@@ -12,6 +13,16 @@ use crate::model::{Definition, Entry, Model, Problem, Value};
 const LAWS: [&str; 3] = ["value", "length", "residual"];
 /// The name of a new driver, unless it is taken.
 const NAME: &str = "over";
+
+/// Rates with the positions of which they are the derivatives.
+const RATES: [(&str, &str); 6] = [
+    ("omega", "angle"),
+    ("vx", "x"),
+    ("vy", "y"),
+    ("rate", "displacement"),
+    ("rate", "length"),
+    ("u_rate", "u"),
+];
 
 /// A mechanism in which t is the value of a quantity.
 pub struct Over {
@@ -64,16 +75,8 @@ impl DrivenQuantity {
         let drivers = &definition.drivers;
         let known = drivers.iter().find(|entry| entry.name == name);
         let quantity = known.and_then(|entry| text(entry, "coordinate")).unwrap_or(name);
-        let found = readings::find(model, quantity)
+        let found = position_named(model, quantity)
             .map_err(|problem| Problem { path: vec!["over".to_string()], ..problem })?;
-        if let Some((owner, rate)) = name.rsplit_once('.') {
-            let positions = [("omega", "angle"), ("vx", "x"), ("vy", "y")];
-            if let Some((_, position)) = positions.iter().find(|(known, _)| *known == rate) {
-                let message = format!("'{rate}' is a rate; must be a position");
-                let hint = format!("name '{owner}.{position}'");
-                return Err(Problem::at(&["over"], message).hint(hint));
-            }
-        }
         let own = drivers.iter().find(|entry| text(entry, "coordinate") == Some(quantity));
         Ok(Self {
             quantity: quantity.to_string(),
@@ -81,6 +84,22 @@ impl DrivenQuantity {
             given: name.to_string(),
             driver: own.map(|entry| entry.name.clone()),
         })
+    }
+}
+
+/// A position quantity by its name.
+///
+/// # Errors
+/// The model has no such quantity, or it is a rate.
+pub(super) fn position_named(model: &Model, name: &str) -> Result<Readable, Problem> {
+    let found = readings::find(model, name)?;
+    let (owner, rate) = name.rsplit_once('.').unwrap_or_default();
+    let positions = RATES.iter().filter(|(known, _)| *known == rate);
+    let mut names = positions.map(|(_, position)| format!("{owner}.{position}"));
+    match names.find(|name| readings::find(model, name).is_ok()) {
+        None => Ok(found),
+        Some(name) => Err(Problem::new(format!("'{rate}' is a rate; must be a position"))
+            .hint(format!("name '{name}'"))),
     }
 }
 

@@ -252,9 +252,16 @@ impl Subject<'_> {
             [] => "the model has no driver that acts".to_string(),
             _ => format!("the model has the drivers {}", names.join(", ")),
         };
-        Err(Outcome::new(ErrorClass::Model, format!("over: missing; {reason}"))
-            .hint("name a driver or a position quantity, as over = \"crank.angle\""))
+        let Problem { message, hint, .. } = without_driver(&reason);
+        Err(Outcome::new(ErrorClass::Model, format!("over: {message}"))
+            .hint(hint.unwrap_or_default()))
     }
+}
+
+/// The problem of an analysis without `over` where no driver decides it.
+pub(in crate::analyses) fn without_driver(reason: &str) -> Problem {
+    Problem::at(&["over"], format!("missing; {reason}"))
+        .hint("name a driver or a position quantity, as over = \"crank.angle\"")
 }
 
 impl From<Reason> for Outcome {

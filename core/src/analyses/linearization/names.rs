@@ -6,6 +6,11 @@ use crate::expression::suggest::did_you_mean;
 use crate::math::Listed;
 use crate::model::{Model, Problem};
 
+/// What an input may be.
+const INPUT: &str =
+    "an input is a parameter of a force, or a position quantity such as crank.angle, for its \
+                     generalized force";
+
 /// An input.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Input {
@@ -33,13 +38,12 @@ impl Input {
             ) => Ok(Self::Quantity(found)),
             Some(_) => {
                 let message = format!("'{name}' is not a position quantity");
-                let hint = "an input is a parameter of a force, or a position quantity such as crank.angle, for its \
-                            generalized force";
-                Err(Problem::new(message).hint(hint))
+                Err(Problem::new(message).hint(INPUT))
             }
             None => {
                 let known = parameters.iter().cloned().chain(names(model, name));
-                Err(unknown("parameter or quantity", name, known))
+                let problem = unknown("parameter or quantity", name, known);
+                Err(problem.maybe_hint(Some(INPUT.to_string())))
             }
         }
     }

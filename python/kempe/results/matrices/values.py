@@ -11,6 +11,7 @@ import numpy as np
 
 from kempe import _core
 from kempe._upwards import CALLS
+from kempe.base.arguments import explain_methods
 from kempe.base.arrays import Floats, fixed
 from kempe.model.values import Number, numbers
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from kempe.results.state import State
 
 
+@explain_methods
 @dataclass(frozen=True, repr=False)
 class Matrices:
     """M a + Φ_qᵀ λ = Q, Φ_q a = γ (Haug 6.3.18), read-only, in SI units.

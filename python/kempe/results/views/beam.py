@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kempe.base.arguments import explain_methods
 from kempe.base.arrays import Floats, fixed
 from kempe.errors import ModelError
 from kempe.model.compiled import BodyInfo
@@ -58,6 +59,7 @@ def whole(motion: Motion, name: str, quantity: str) -> Any:
     return WHOLE[k][2](column, axis=0)
 
 
+@explain_methods
 class BeamView:
     """A beam of a motion. All arrays but ``s`` are (n_t, n_s), in a state (n_s,), in SI units.
 

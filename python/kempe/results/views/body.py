@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar, cast
 
 import numpy as np
 
+from kempe.base.arguments import explain_methods
 from kempe.base.arrays import Floats, pairs, rotated, scalar
 from kempe.base.names import entry
 from kempe.model.compiled import BodyInfo, Vector
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 S = TypeVar("S")
 
 
+@explain_methods
 class BodyView(Generic[S]):
     """A body of a motion; all arrays are (n_t,) or (n_t, 2), in SI units and rad.
 
@@ -129,6 +131,7 @@ class BodyView(Generic[S]):
         return f"<body {self.name!r}>"
 
 
+@explain_methods
 class PointView:
     """A point fixed in a body.
 

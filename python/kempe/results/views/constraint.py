@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Generic, cast
 
 import numpy as np
 
-from kempe.base.arguments import explain_methods
+from kempe.base.arguments import explain_methods, missing_attribute
 from kempe.base.arrays import Floats, fixed, scalar
 from kempe.errors import ModelError
 from kempe.model.compiled import ConstraintInfo
@@ -151,7 +151,8 @@ class ConstraintView(Generic[S]):
         info = self.__dict__.get("info")
         names = [known for known, _ in info.results] if info else []
         if name not in names:
-            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            known = () if name.startswith("_") else dir(self)
+            raise AttributeError(missing_attribute(type(self).__name__, name, known))
         return cast(S, scalar(self._motion.results(self.name)[..., names.index(name)]))
 
     def __dir__(self) -> list[str]:
