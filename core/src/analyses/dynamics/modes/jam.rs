@@ -75,11 +75,7 @@ pub(super) fn strike(
         ));
     }
     let is_lost = |k: usize| lost.contains(&contacts[k]);
-    let slides = |k: usize, sign: f64| {
-        let rub = partner(&found, k).map_or(0.0, |(at, _)| start[at][0]);
-        is_lost(k) && sign * rub > 0.0
-    };
-    match &solutions(&found, &start, (&slides, &is_lost))[..] {
+    match &solutions(&found, &start, &is_lost)[..] {
         [] => Ok(None),
         [only] if largest(&only.jump) <= ZERO => Ok(None),
         [only] => {
@@ -102,11 +98,11 @@ struct Solved {
     jump: Vec<f64>,
 }
 
-/// The solutions with distinct jumps. `excluded` contacts cannot slide in a direction.
+/// The solutions with distinct jumps. Contacts that are lost cannot go on to slide.
 fn solutions(
     found: &Contacts,
     start: &[Expansion],
-    (excluded, is_lost): (&dyn Fn(usize, f64) -> bool, &dyn Fn(usize) -> bool),
+    is_lost: &dyn Fn(usize) -> bool,
 ) -> Vec<Solved> {
     let mut all: Vec<Solved> = Vec::new();
     let ways = |k: usize| if partner(found, k).is_some() { 4 } else { 2 };
@@ -119,11 +115,11 @@ fn solutions(
             way
         };
         let combination: Vec<ContactWay> = (0..found.normals).map(of).list();
-        let is_excluded = |(k, way): (usize, &ContactWay)| match way {
-            ContactWay::Slides(sign) => excluded(k, *sign),
+        let goes_on = |(k, way): (usize, &ContactWay)| match (way, partner(found, k)) {
+            (ContactWay::Slides(sign), Some((at, _))) => is_lost(k) && sign * start[at][0] > 0.0,
             _ => false,
         };
-        if combination.iter().enumerate().any(is_excluded) {
+        if combination.iter().enumerate().any(goes_on) {
             continue;
         }
         let Some(solved) = solved(found, start, (&combination, is_lost)) else { continue };
