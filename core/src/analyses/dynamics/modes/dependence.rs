@@ -6,7 +6,7 @@
 
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
-use super::place::{drivers_rest, largest, mode_of, StateAt, STILL};
+use super::place::{drivers_rest, largest, mode_of, scaled, StateAt, STILL};
 use crate::analyses::mobility::dependent_equations;
 use crate::analyses::second_order::mobility;
 use crate::elements::{Behaviour, Mode};
@@ -16,7 +16,7 @@ use crate::equations::kinematics::Motions;
 use crate::math::Listed;
 use crate::model::{size, DriverSet, ForceMode, Model};
 
-/// Speed at which friction without its own equation begins to slide, relative to the speeds of the mechanism.
+/// Rate at which friction without its own equation begins to slide, relative to the rates of the mechanism.
 const BEGINS: f64 = 1e-6;
 
 /// The modes of forces that hold together: their equations are independent of each other and of the joints. `free`
@@ -109,9 +109,11 @@ fn dependent(
     if !matches!(model.forces[force].element.behaviour(), Some(Behaviour::Sticks)) {
         return of(Mode::Idle, 0.0);
     }
-    let begins = BEGINS * place.speed_scale(model, held).max(size(model));
-    if passes(model, place, held, (force, free, begins)) {
-        return of(free, 0.0);
+    // where nothing moves, at the rate at which drivers no longer stand still
+    let rate = (BEGINS * place.rate_scale(&model.in_modes(held))).max(STILL);
+    let begins = rate * place.unit(model, force);
+    if let Some(sign) = passes(model, place, held, (force, free, begins)) {
+        return of(Mode::Slides(sign), 0.0);
     }
     match leader(model, place, held, force) {
         Some((leader, sense)) => of(Mode::Follows { leader, sense }, begins),
@@ -148,26 +150,33 @@ fn leader(
     found.map(|(ratio, leader)| (leader, ratio.signum()))
 }
 
-/// Whether friction whose speed is zero for a moment continues to slide: the speed changes its sign while the
-/// mechanism moves, or a driver begins to move it. The speed or the acceleration then has the direction of sliding.
+/// The direction in which friction whose speed is zero for a moment slides: the speed changes its sign while the mechanism
+/// moves, or a driver begins to move it. It is that of the speed or of the acceleration. None if the friction rests.
 fn passes(
     model: &Model,
     place: &StateAt<'_>,
     held: &[ForceMode],
     (force, free, begins): (usize, Mode, f64),
-) -> bool {
-    let (Mode::Slides(sign), Ok(workspace)) = (free, place.solved(&model.in_modes(held))) else {
-        return false;
-    };
+) -> Option<f64> {
+    let phase = model.in_modes(held);
+    let (Mode::Slides(sign), Ok(workspace)) = (free, place.solved(&phase)) else { return None };
     let jet = place.gap_jets(model, &[force], workspace.a())[0];
     // the holding forces may keep the whole mechanism at rest; its accelerations are then rounding errors of the
     // accelerations without these forces
-    let free = place.solved(model).map_or(0.0, |free| largest(free.a()));
-    let fastest = largest(workspace.a()).max(free).max(size(model));
+    let free = place.solved(model).map_or(0.0, |free| scaled(model, free.a()));
+    let heaviest = model.bodies.iter().fold(0.0, |most: f64, body| most.max(body.mass));
+    let of_forces = place.force_scale(&phase, Some(&workspace)) / (heaviest * size(model));
+    let fastest = scaled(&phase, workspace.a()).max(free);
+    let fastest = if of_forces.is_finite() { fastest.max(of_forces) } else { fastest };
     // the speed of a joint whose drivers stand still is an error
     let [q, ..] = place.state(model);
     let rests = || drivers_rest(model, holders(model, place, force), place.t, q);
-    sign * jet.value > 0.5 * begins && !rests() || sign * jet.rate > STILL * fastest
+    let still = STILL * fastest * place.unit(model, force);
+    if sign * jet.rate > still || sign * jet.value > 0.5 * begins && !rests() {
+        return Some(sign);
+    }
+    // the event of another force has come first where the speed changes its sign
+    (-sign * jet.rate > still && !rests()).then_some(-sign)
 }
 
 /// The drivers that hold the coordinate of a stop or of friction, together with joints.

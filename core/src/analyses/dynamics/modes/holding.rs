@@ -8,10 +8,11 @@ use super::super::failure::Failure;
 use super::companions;
 use super::dependence::{holders_of_friction, independent};
 use super::impacts::{self, restitution};
-use super::place::{drivers_rest, largest, mode_of, with_modes, StateAt, STILL};
+use super::place::{drivers_rest, mode_of, scaled, with_modes, StateAt, STILL};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
+use crate::equations::leading;
 use crate::math::Jet;
 use crate::math::{Listed, Ordered};
 use crate::model::{ForceMode, Model};
@@ -43,7 +44,7 @@ pub(super) fn decide(
     let all: Vec<usize> = with_modes(model).list();
     let thresholds = place.thresholds(model, &all);
     // after an impact that stops the mechanism, only rounding errors of the speeds remain
-    let speed = place.speed_scale(model, before).max(jumped.unwrap_or(0.0));
+    let rate = place.rate_scale(&model.in_modes(before)).max(jumped.unwrap_or(0.0));
     let jumped = jumped.is_some();
     let holders = holders_of_friction(model, place, &all);
     let (mut modes, mut candidates) = (Vec::new(), Vec::new());
@@ -55,7 +56,8 @@ pub(super) fn decide(
         let (free, candidate) = match model.forces[*k].element.behaviour() {
             Some(Behaviour::Sticks) => {
                 let rests = drivers_rest(model, *holders, place.t, place.state(model)[0]);
-                let still = threshold.abs() <= STILL * speed || *threshold == 0.0 || rests;
+                let least = STILL * rate * place.unit(model, *k);
+                let still = threshold.abs() <= least || *threshold == 0.0 || rests;
                 let ended = !jumped && fired.contains(k);
                 let old = if jumped { Mode::Open } else { mode_of(before, *k) };
                 let direction = match old {
@@ -77,15 +79,23 @@ pub(super) fn decide(
     let held = |k: &usize| still_holds(model, place, *k, mode_of(before, *k));
     let ended = |k: &usize| fired.contains(k) && held(k) || !jumped && ceased.contains(k);
     let weak = place.weak(model, &candidates.iter().copied().filter(|k| !contact(k)).list());
-    candidates.order_by_key(|k| (weak.contains(k), ended(k), !contact(k), *k));
-    let ended: Vec<usize> = candidates.iter().copied().filter(ended).list();
-    let mut modes = hold(model, place, modes, (&candidates, &ended))?;
+    let (free, mut last) = (modes, Vec::new());
+    let mut modes = loop {
+        candidates.order_by_key(|k| (last.contains(k), weak.contains(k), ended(k), !contact(k), *k));
+        let ended: Vec<usize> = candidates.iter().copied().filter(ended).list();
+        let found = hold(model, place, free.clone(), (&candidates, &ended))?;
+        // the limit of the friction that leads may be small only while the friction holds
+        match overtaken(model, place, &found).filter(|k| !last.contains(k)) {
+            Some(k) => last.push(k),
+            None => break found,
+        }
+    };
     give_slack(model, place, (before, touching), &mut modes);
     for own in &mut modes {
         let at = all.iter().position(|k| *k == own.force);
         own.held_by = at.map(|at| holders[at]).unwrap_or_default();
     }
-    give_speed_slack(&mut modes, &thresholds, speed);
+    give_speed_slack((model, place), &mut modes, &thresholds, rate);
     Ok(modes)
 }
 
@@ -144,10 +154,16 @@ fn give_slack(
     }
 }
 
-/// Sets the slack of friction that begins to slide, for speeds that are small beside that of the mechanism.
-fn give_speed_slack(modes: &mut [ForceMode], thresholds: &[f64], speed: f64) {
+/// Sets the slack of friction that begins to slide, for speeds that are small beside the rate of the mechanism.
+fn give_speed_slack(
+    (model, place): (&Model, &StateAt<'_>),
+    modes: &mut [ForceMode],
+    thresholds: &[f64],
+    rate: f64,
+) {
     for (own, threshold) in modes.iter_mut().zip(thresholds) {
         let Mode::Slides(sign) = own.mode else { continue };
+        let speed = rate * place.unit(model, own.force);
         if sign * threshold <= STILL * speed {
             // a speed that counts as zero may have the opposite direction, and at rest it consists of rounding errors
             own.slack = (-2.0 * sign * threshold).max(NOISE * speed);
@@ -289,15 +305,44 @@ fn moves_apart(
 ) -> bool {
     let phase = model.in_modes(modes);
     let Ok(workspace) = place.solved(&phase) else { return false };
-    let fastest = largest(workspace.a());
+    let still = STILL * scaled(&phase, workspace.a());
     let gaps = place.gap_jets(model, candidates, workspace.a());
     let fits = |(k, jet): (&usize, Jet)| match mode_of(modes, *k) {
         Mode::Free if model.forces[*k].is_companion => true,
-        Mode::Free => jet.second >= -STILL * fastest,
-        Mode::Slides(sign) => sign * jet.rate >= -STILL * fastest,
+        Mode::Free => jet.second >= -still * place.unit(model, *k),
+        Mode::Slides(sign) => sign * jet.rate >= -still * place.unit(model, *k),
         _ => true,
     };
     candidates.iter().zip(gaps).all(fits)
+}
+
+/// Friction whose limit is too small to lead the friction that follows it. The efforts of the others are not found from
+/// its own, so that the friction that leads here carries the effort of all.
+fn overtaken(model: &Model, place: &StateAt<'_>, modes: &[ForceMode]) -> Option<usize> {
+    let alone = modes.iter().map(|of| match of.mode {
+        Mode::Follows { .. } => ForceMode { mode: Mode::Idle, ..*of },
+        _ => *of,
+    });
+    let alone: Vec<ForceMode> = alone.list();
+    if alone == modes {
+        return None;
+    }
+    let (alone, phase) = (model.in_modes(&alone), model.in_modes(modes));
+    let solved = place.solved(&alone).ok()?;
+    let [q, v, z] = place.state(&phase);
+    let motions = Motions::at(&phase.layout, q, v);
+    let acting = Acting { z, lam: Some(solved.lam()), t: place.t };
+    let noise = NOISE * place.force_scale(&alone, Some(&solved));
+    let follows = |k: usize| move |of: &&ForceMode| matches!(of.mode, Mode::Follows { leader, .. } if leader == k);
+    let is_overtaken = |k: &usize| {
+        let Some(beyond) = leading::lead(&phase, *k, &motions, acting, noise) else { return false };
+        // without load and limit, one that can push takes the load that comes
+        let limit = |k: usize, sense| leading::limit(&phase, k, &motions, acting, sense);
+        let pushes = |of: &ForceMode| limit(of.force, 1.0).max(limit(of.force, -1.0)) > noise;
+        let idle = limit(*k, 1.0).max(limit(*k, -1.0)) <= noise;
+        beyond < 0.0 || idle && modes.iter().filter(follows(*k)).any(pushes)
+    };
+    (0..phase.forces.len()).find(is_overtaken)
 }
 
 /// The forces that ended, and the forces that they follow. All of them have reached their limits.

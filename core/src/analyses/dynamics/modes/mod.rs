@@ -38,7 +38,7 @@ pub(super) use sliding_contacts::{lost, Uniqueness, MOST};
 pub(super) use taking_part::Settled;
 
 use crate::math::Listed;
-use place::{largest, with_modes};
+use place::with_modes;
 
 use super::failure::{Failure, Reason};
 use super::options::{ImpactLaws, Jam};
@@ -100,7 +100,7 @@ fn settle_part(
     ended: &Ended,
     laws: ImpactLaws,
 ) -> Result<Settled, Box<Failure>> {
-    let fastest = largest(place.state(model)[1]);
+    let fastest = place.fastest(model);
     let mut found = impacts::resolve(model, place, touching, laws)?;
     let (mut jammed, mut lost) = (Vec::new(), ended.lost.as_slice());
     let mut modes = loop {

@@ -14,8 +14,7 @@ use crate::math::Listed;
 use crate::math::{Jet, Lift, Real, ShortArray};
 use crate::model::{column_scales, row_scales, size, DriverSet, ForceMode, Model};
 
-/// Speeds of friction below this value count as zero, relative to the speeds of the mechanism; accelerations
-/// likewise.
+/// Rates of friction below this value count as zero, relative to the rates of the mechanism; accelerations likewise.
 pub const STILL: f64 = 1e-9;
 
 /// Limit of friction below which it does not lead, relative to the largest one.
@@ -71,20 +70,33 @@ impl<'y> StateAt<'y> {
     /// # Errors
     /// [`Failure`] where the equations have no solution.
     pub fn solved(&self, phase: &Model) -> Result<Workspace, Box<Failure>> {
+        self.solved_with(phase, &ModelCache::default())
+    }
+
+    fn solved_with(&self, phase: &Model, cache: &ModelCache) -> Result<Workspace, Box<Failure>> {
         let (t, state) = (self.t, self.state(phase));
-        let mut workspace = workspace_at((phase, &ModelCache::default()), t, state);
+        let mut workspace = workspace_at((phase, cache), t, state);
         let solved = workspace.accelerate(phase, t, state, Gains::default());
         solved.map_err(|breakdown| Failure::at_state(phase, t, state[0], breakdown))?;
         Ok(workspace)
     }
 
-    /// A speed that is large compared with rounding errors of speeds: the largest rate of the state, or the speed
-    /// that the accelerations produce within the size of the mechanism.
-    pub fn speed_scale(&self, model: &Model, modes: &[ForceMode]) -> f64 {
-        let fastest = largest(self.state(model)[1]);
-        let workspace = self.solved(&model.in_modes(modes));
-        let accelerations = workspace.map_or(0.0, |workspace| largest(workspace.a()));
-        fastest.max((self.size * accelerations).sqrt())
+    /// A rate in 1/s that is large compared with rounding errors of rates: the largest one of the state, or that which
+    /// the accelerations produce within the size of the mechanism or 1 rad.
+    pub fn rate_scale(&self, phase: &Model) -> f64 {
+        self.rate_scale_with(phase, &ModelCache::default())
+    }
+
+    /// The same with data of the phase that other states have computed.
+    pub fn rate_scale_with(&self, phase: &Model, cache: &ModelCache) -> f64 {
+        let solved = self.solved_with(phase, cache);
+        let accelerations = solved.map_or(0.0, |solved| scaled(phase, solved.a()));
+        self.fastest(phase).max(accelerations.sqrt())
+    }
+
+    /// The largest rate of the state, 1/s.
+    pub fn fastest(&self, model: &Model) -> f64 {
+        scaled(model, self.state(model)[1])
     }
 
     /// The functions whose zeros may change the modes of forces: gaps or speeds.
@@ -271,6 +283,12 @@ pub fn mode_of(modes: &[ForceMode], force: usize) -> Mode {
 /// Whether a force has modes.
 pub fn has_mode(model: &Model, force: usize) -> bool {
     model.forces[force].element.behaviour().is_some_and(|of| of.has_modes())
+}
+
+/// The largest magnitude of rates or accelerations, relative to the size of the mechanism or 1 rad.
+pub fn scaled(model: &Model, rates: &[f64]) -> f64 {
+    let own = rates.iter().zip(column_scales(model)).map(|(rate, scale)| rate.abs() / scale);
+    own.fold(0.0, f64::max)
 }
 
 /// The largest magnitude.
