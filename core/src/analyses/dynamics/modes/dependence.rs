@@ -164,10 +164,8 @@ fn passes(
     // the holding forces may keep the whole mechanism at rest; its accelerations are then rounding errors of the
     // accelerations without these forces
     let free = place.solved(model).map_or(0.0, |free| scaled(model, free.a()));
-    let heaviest = model.bodies.iter().fold(0.0, |most: f64, body| most.max(body.mass));
-    let of_forces = place.force_scale(&phase, Some(&workspace)) / (heaviest * size(model));
-    let fastest = scaled(&phase, workspace.a()).max(free);
-    let fastest = if of_forces.is_finite() { fastest.max(of_forces) } else { fastest };
+    // where no force acts, all of them are rounding errors
+    let fastest = scaled(&phase, workspace.a()).max(free).max(1.0);
     // the speed of a joint whose drivers stand still is an error
     let [q, ..] = place.state(model);
     let rests = || drivers_rest(model, holders(model, place, force), place.t, q);
