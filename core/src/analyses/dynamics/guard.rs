@@ -36,8 +36,7 @@ const DRIFT: f64 = 1e-4;
 const BESIDE: f64 = 1e-8;
 /// Part of the largest regularity below which a state is beside a singular position.
 const NEAR: f64 = 0.3;
-/// Part of the kinetic energy per size below which forces are rounding errors. Forces that hold a body in its motion have
-/// such errors, although their sum may be zero.
+/// Part of the kinetic energy per size below which the errors of forces are rounding errors, although no force acts.
 const ROUNDED: f64 = 1e-6;
 /// Part of the energy of a usual motion below which energies are rounding errors.
 const LEAST: f64 = 1e-9;
@@ -201,7 +200,7 @@ impl Guard {
             let acting = Acting { z, lam: Some(&lam[k * m..(k + 1) * m]), t };
             let at = newton_euler::balances(model, &motions, &a[k * n..(k + 1) * n], acting);
             self.reactions.add(&at);
-            let rounded = ROUNDED * energy::kinetic(model, &motions) / size(model);
+            let rounded = ROUNDED * energy::stirred(model, &motions) / size(model);
             self.least_force = self.least_force.max(rounded);
             self.look_at_implied(model, &motions, &a[k * n..(k + 1) * n], acting);
             self.regularity = self.regularity.max(regularity[k]);

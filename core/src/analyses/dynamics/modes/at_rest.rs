@@ -43,10 +43,8 @@ pub fn friction_modes(
         let mut place = StateAt::new(model, *t, &mut y);
         let still = STILL * place.rate_scale_with(&open, &cache);
         let speeds = place.thresholds(model, &all);
-        let slow = all
-            .iter()
-            .zip(speeds)
-            .any(|(k, speed)| speed.abs() <= still * place.unit(model, *k));
+        let slow =
+            all.iter().zip(speeds).any(|(k, speed)| speed.abs() <= still * place.unit(model, *k));
         if !slow && !drivers.iter().any(|own| drivers_rest(model, *own, *t, q)) {
             return Ok(Vec::new());
         }

@@ -6,13 +6,14 @@
 
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
-use super::place::{drivers_rest, largest, mode_of, scaled, StateAt, STILL};
+use super::place::{drivers_rest, largest, mode_of, scaled, StateAt, NOISE, STILL};
 use crate::analyses::mobility::dependent_equations;
 use crate::analyses::second_order::mobility;
 use crate::elements::{Behaviour, Mode};
 use crate::equations::constraints;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
+use crate::equations::leading;
 use crate::math::Listed;
 use crate::model::{size, DriverSet, ForceMode, Model};
 
@@ -148,6 +149,35 @@ fn leader(
         }
     }
     found.map(|(ratio, leader)| (leader, ratio.signum()))
+}
+
+/// Friction whose limit is too small to lead the friction that follows it. The efforts of the others are not found from
+/// its own, so that the friction that leads here carries the effort of all.
+pub(super) fn overtaken(model: &Model, place: &StateAt<'_>, modes: &[ForceMode]) -> Option<usize> {
+    let alone = modes.iter().map(|of| match of.mode {
+        Mode::Follows { .. } => ForceMode { mode: Mode::Idle, ..*of },
+        _ => *of,
+    });
+    let alone: Vec<ForceMode> = alone.list();
+    if alone == modes {
+        return None;
+    }
+    let (alone, phase) = (model.in_modes(&alone), model.in_modes(modes));
+    let solved = place.solved(&alone).ok()?;
+    let [q, v, z] = place.state(&phase);
+    let motions = Motions::at(&phase.layout, q, v);
+    let acting = Acting { z, lam: Some(solved.lam()), t: place.t };
+    let noise = NOISE * place.force_scale(&alone, Some(&solved));
+    let follows = |k: usize| move |of: &&ForceMode| matches!(of.mode, Mode::Follows { leader, .. } if leader == k);
+    let is_overtaken = |k: &usize| {
+        let Some(beyond) = leading::lead(&phase, *k, &motions, acting, noise) else { return false };
+        // without load and limit, one that can push takes the load that comes
+        let limit = |k: usize, sense| leading::limit(&phase, k, &motions, acting, sense);
+        let pushes = |of: &ForceMode| limit(of.force, 1.0).max(limit(of.force, -1.0)) > noise;
+        let idle = limit(*k, 1.0).max(limit(*k, -1.0)) <= noise;
+        beyond < 0.0 || idle && modes.iter().filter(follows(*k)).any(pushes)
+    };
+    (0..phase.forces.len()).find(is_overtaken)
 }
 
 /// The direction in which friction whose speed is zero for a moment slides: the speed changes its sign while the mechanism

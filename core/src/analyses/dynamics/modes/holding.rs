@@ -6,13 +6,12 @@
 
 use super::super::failure::Failure;
 use super::companions;
-use super::dependence::{holders_of_friction, independent};
+use super::dependence::{holders_of_friction, independent, overtaken};
 use super::impacts::{self, restitution};
-use super::place::{drivers_rest, mode_of, scaled, with_modes, StateAt, STILL};
+use super::place::{drivers_rest, mode_of, scaled, with_modes, StateAt, NOISE, STILL};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
-use crate::equations::leading;
 use crate::math::Jet;
 use crate::math::{Listed, Ordered};
 use crate::model::{ForceMode, Model};
@@ -27,8 +26,6 @@ const USED_UP: f64 = 1e-6;
 const LOW: f64 = 1e-10;
 /// Largest number of combinations that are tried.
 const MOST_TRIED: usize = 1500;
-/// Forces below this fraction of the forces of a state are noise.
-const NOISE: f64 = 1e-13;
 
 /// The modes of all forces that have modes. The arguments include the contacts that touch, the largest rate before a
 /// jump if the velocities jumped, the forces whose modes ended, and those that have ceased to hold at this time.
@@ -79,17 +76,9 @@ pub(super) fn decide(
     let held = |k: &usize| still_holds(model, place, *k, mode_of(before, *k));
     let ended = |k: &usize| fired.contains(k) && held(k) || !jumped && ceased.contains(k);
     let weak = place.weak(model, &candidates.iter().copied().filter(|k| !contact(k)).list());
-    let (free, mut last) = (modes, Vec::new());
-    let mut modes = loop {
-        candidates.order_by_key(|k| (last.contains(k), weak.contains(k), ended(k), !contact(k), *k));
-        let ended: Vec<usize> = candidates.iter().copied().filter(ended).list();
-        let found = hold(model, place, free.clone(), (&candidates, &ended))?;
-        // the limit of the friction that leads may be small only while the friction holds
-        match overtaken(model, place, &found).filter(|k| !last.contains(k)) {
-            Some(k) => last.push(k),
-            None => break found,
-        }
-    };
+    candidates.order_by_key(|k| (weak.contains(k), ended(k), !contact(k), *k));
+    let ended: Vec<usize> = candidates.iter().copied().filter(ended).list();
+    let mut modes = hold(model, place, modes, (&candidates, &ended))?;
     give_slack(model, place, (before, touching), &mut modes);
     for own in &mut modes {
         let at = all.iter().position(|k| *k == own.force);
@@ -244,7 +233,7 @@ fn hold(
                 _ => {}
             }
         }
-        let modes = with_held(model, place, &now, &left);
+        let modes = well_led(model, place, &now, &left);
         let ended = with_leaders(&modes, ended);
         // with friction in contradictory directions there may be no solution
         if matches!(worst(&model.in_modes(&modes), place, &ended), Ok(None)) && fits(&modes) {
@@ -263,7 +252,7 @@ fn released(
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
     let mut left = all.to_vec();
     loop {
-        let modes = with_held(model, place, &now, &left);
+        let modes = well_led(model, place, &now, &left);
         let ended = with_leaders(&modes, ended);
         let Some((force, slides)) = worst(&model.in_modes(&modes), place, &ended)? else {
             return Ok(modes);
@@ -273,6 +262,24 @@ fn released(
         if let Some(sign) = slides {
             own.mode = Mode::Slides(sign);
         }
+    }
+}
+
+/// The modes with some forces held. Friction leads other friction only if its limit is large enough while all hold.
+fn well_led(
+    model: &Model,
+    place: &StateAt<'_>,
+    free: &[ForceMode],
+    left: &[(usize, f64)],
+) -> Vec<ForceMode> {
+    let (mut left, mut last) = (left.to_vec(), Vec::new());
+    loop {
+        let modes = with_held(model, place, free, &left);
+        let Some(k) = overtaken(model, place, &modes).filter(|k| !last.contains(k)) else {
+            return modes;
+        };
+        last.push(k);
+        left.order_by_key(|(of, _)| last.contains(of));
     }
 }
 
@@ -314,35 +321,6 @@ fn moves_apart(
         _ => true,
     };
     candidates.iter().zip(gaps).all(fits)
-}
-
-/// Friction whose limit is too small to lead the friction that follows it. The efforts of the others are not found from
-/// its own, so that the friction that leads here carries the effort of all.
-fn overtaken(model: &Model, place: &StateAt<'_>, modes: &[ForceMode]) -> Option<usize> {
-    let alone = modes.iter().map(|of| match of.mode {
-        Mode::Follows { .. } => ForceMode { mode: Mode::Idle, ..*of },
-        _ => *of,
-    });
-    let alone: Vec<ForceMode> = alone.list();
-    if alone == modes {
-        return None;
-    }
-    let (alone, phase) = (model.in_modes(&alone), model.in_modes(modes));
-    let solved = place.solved(&alone).ok()?;
-    let [q, v, z] = place.state(&phase);
-    let motions = Motions::at(&phase.layout, q, v);
-    let acting = Acting { z, lam: Some(solved.lam()), t: place.t };
-    let noise = NOISE * place.force_scale(&alone, Some(&solved));
-    let follows = |k: usize| move |of: &&ForceMode| matches!(of.mode, Mode::Follows { leader, .. } if leader == k);
-    let is_overtaken = |k: &usize| {
-        let Some(beyond) = leading::lead(&phase, *k, &motions, acting, noise) else { return false };
-        // without load and limit, one that can push takes the load that comes
-        let limit = |k: usize, sense| leading::limit(&phase, k, &motions, acting, sense);
-        let pushes = |of: &ForceMode| limit(of.force, 1.0).max(limit(of.force, -1.0)) > noise;
-        let idle = limit(*k, 1.0).max(limit(*k, -1.0)) <= noise;
-        beyond < 0.0 || idle && modes.iter().filter(follows(*k)).any(pushes)
-    };
-    (0..phase.forces.len()).find(is_overtaken)
 }
 
 /// The forces that ended, and the forces that they follow. All of them have reached their limits.

@@ -17,6 +17,9 @@ use crate::model::{column_scales, row_scales, size, DriverSet, ForceMode, Model}
 /// Rates of friction below this value count as zero, relative to the rates of the mechanism; accelerations likewise.
 pub const STILL: f64 = 1e-9;
 
+/// Forces below this fraction of the forces of a state are noise.
+pub const NOISE: f64 = 1e-13;
+
 /// Limit of friction below which it does not lead, relative to the largest one.
 const WEAK: f64 = 1e-2;
 
