@@ -31,7 +31,7 @@ pub(super) fn independent(
     let holds = |(k, side): &(usize, f64)| ForceMode::new(*k, Mode::Holds(*side));
     let all: Vec<ForceMode> = candidates.iter().map(holds).list();
     let [q, ..] = place.state(model);
-    let phase = model.in_modes(&all);
+    let phase = place.phase(model, &all);
     if dependent_equations(&phase, place.t, q, &|| false).is_empty() {
         let row = |own: &ForceMode| phase.forces[own.force].held_row.expect("it holds");
         let with_value =
@@ -43,7 +43,7 @@ pub(super) fn independent(
     for own in all {
         let mut tried = held.clone();
         tried.push(own);
-        let phase = model.in_modes(&tried);
+        let phase = place.phase(model, &tried);
         let found = dependent_equations(&phase, place.t, q, &|| false);
         let row = phase.forces[own.force].held_row.expect("it holds");
         let last = phase.layout.owner(row).0;
@@ -76,7 +76,7 @@ pub(super) fn keep_closed(
         }
         let mut tried = held.clone();
         tried.push(ForceMode::new(*k, Mode::Holds(place.sides(model, &[*k])[0])));
-        let phase = model.in_modes(&tried);
+        let phase = place.phase(model, &tried);
         let found = dependent_equations(&phase, place.t, place.state(model)[0], &|| false);
         let row = phase.forces[*k].held_row.expect("it holds");
         let last = phase.layout.owner(row).0;
@@ -111,7 +111,7 @@ fn dependent(
         return of(Mode::Idle, 0.0);
     }
     // where nothing moves, at the rate at which drivers no longer stand still
-    let rate = (BEGINS * place.rate_scale(&model.in_modes(held))).max(STILL);
+    let rate = (BEGINS * place.rate_scale(&place.phase(model, held))).max(STILL);
     let begins = rate * place.unit(model, force);
     if let Some(sign) = passes(model, place, held, (force, free, begins)) {
         return of(Mode::Slides(sign), 0.0);
@@ -131,7 +131,7 @@ fn leader(
 ) -> Option<(usize, f64)> {
     let sticks = |k: usize| matches!(model.forces[k].element.behaviour(), Some(Behaviour::Sticks));
     let [q, _, z] = place.state(model);
-    let phase = model.in_modes(held);
+    let phase = place.phase(model, held);
     let mut workspace = workspace_at((&phase, &ModelCache::default()), place.t, place.state(model));
     let speed = |v: &[f64]| {
         let motions = Motions::at(&model.layout, q, v);
@@ -162,7 +162,7 @@ pub(super) fn overtaken(model: &Model, place: &StateAt<'_>, modes: &[ForceMode])
     if alone == modes {
         return None;
     }
-    let (alone, phase) = (model.in_modes(&alone), model.in_modes(modes));
+    let (alone, phase) = (place.phase(model, &alone), place.phase(model, modes));
     let solved = place.solved(&alone).ok()?;
     let [q, v, z] = place.state(&phase);
     let motions = Motions::at(&phase.layout, q, v);
@@ -188,7 +188,7 @@ fn passes(
     held: &[ForceMode],
     (force, free, begins): (usize, Mode, f64),
 ) -> Option<f64> {
-    let phase = model.in_modes(held);
+    let phase = place.phase(model, held);
     let (Mode::Slides(sign), Ok(workspace)) = (free, place.solved(&phase)) else { return None };
     let jet = place.gap_jets(model, &[force], workspace.a())[0];
     // the holding forces may keep the whole mechanism at rest; its accelerations are then rounding errors of the
@@ -214,7 +214,7 @@ pub fn holders(model: &Model, place: &StateAt<'_>, force: usize) -> DriverSet {
     }
     let [q, ..] = place.state(model);
     let at = |value: f64| {
-        model.in_modes(&[ForceMode { value, ..ForceMode::new(force, Mode::Holds(0.0)) }])
+        place.phase(model, &[ForceMode { value, ..ForceMode::new(force, Mode::Holds(0.0)) }])
     };
     let open = at(0.0);
     let Some(row) = open.forces[force].held_row else { return DriverSet::default() };
@@ -222,10 +222,12 @@ pub fn holders(model: &Model, place: &StateAt<'_>, force: usize) -> DriverSet {
     constraints::residual(&open, &Motions::at_rest(&open.layout, q), place.t, &mut residual);
     let held = at(residual[row]);
     let last = held.layout.owner(row).0;
-    let found = mobility(&held, place.t, q);
-    let group = found.redundant.into_iter().find(|group| group.contains(&last));
-    let driven = |k: &usize| model.constraints.get(*k).is_some_and(|item| item.driven);
-    DriverSet::of(group.into_iter().flatten().filter(driven))
+    held.holders(q, || {
+        let found = mobility(&held, place.t, q);
+        let group = found.redundant.into_iter().find(|group| group.contains(&last));
+        let driven = |k: &usize| model.constraints.get(*k).is_some_and(|item| item.driven);
+        DriverSet::of(group.into_iter().flatten().filter(driven))
+    })
 }
 
 /// The drivers that hold the coordinates of forces with friction.

@@ -41,7 +41,7 @@ pub(super) fn decide(
     let all: Vec<usize> = with_modes(model).list();
     let thresholds = place.thresholds(model, &all);
     // after an impact that stops the mechanism, only rounding errors of the speeds remain
-    let rate = place.rate_scale(&model.in_modes(before)).max(jumped.unwrap_or(0.0));
+    let rate = place.rate_scale(&place.phase(model, before)).max(jumped.unwrap_or(0.0));
     let jumped = jumped.is_some();
     let holders = holders_of_friction(model, place, &all);
     let (mut modes, mut candidates) = (Vec::new(), Vec::new());
@@ -118,7 +118,7 @@ fn give_slack(
 ) {
     let rates = place.gap_rates(model, touching);
     let gaps = place.thresholds(model, touching);
-    let phase = model.in_modes(modes);
+    let phase = place.phase(model, modes);
     let noise = NOISE * place.force_scale(&phase, place.solved(&phase).ok().as_ref());
     for own in modes {
         let at = touching.iter().position(|k| *k == own.force);
@@ -182,7 +182,7 @@ fn at_rest(
         let sides = rest.iter().copied().zip(place.sides(model, &rest)).list();
         let modes =
             if rest.is_empty() { free.clone() } else { with_held(model, place, &free, &sides) };
-        let workspace = match place.solved(&model.in_modes(&modes)) {
+        let workspace = match place.solved(&place.phase(model, &modes)) {
             Err(_) if !rest.is_empty() => return Ok(rest),
             solved => solved?,
         };
@@ -236,7 +236,7 @@ fn hold(
         let modes = well_led(model, place, &now, &left);
         let ended = with_leaders(&modes, ended);
         // with friction in contradictory directions there may be no solution
-        if matches!(worst(&model.in_modes(&modes), place, &ended), Ok(None)) && fits(&modes) {
+        if matches!(worst(&place.phase(model, &modes), place, &ended), Ok(None)) && fits(&modes) {
             return Ok(modes);
         }
     }
@@ -254,7 +254,7 @@ fn released(
     loop {
         let modes = well_led(model, place, &now, &left);
         let ended = with_leaders(&modes, ended);
-        let Some((force, slides)) = worst(&model.in_modes(&modes), place, &ended)? else {
+        let Some((force, slides)) = worst(&place.phase(model, &modes), place, &ended)? else {
             return Ok(modes);
         };
         left.retain(|(k, _)| *k != force);
@@ -310,7 +310,7 @@ fn moves_apart(
     modes: &[ForceMode],
     candidates: &[usize],
 ) -> bool {
-    let phase = model.in_modes(modes);
+    let phase = place.phase(model, modes);
     let Ok(workspace) = place.solved(&phase) else { return false };
     let still = STILL * scaled(&phase, workspace.a());
     let gaps = place.gap_jets(model, candidates, workspace.a());

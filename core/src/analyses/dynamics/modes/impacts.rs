@@ -273,7 +273,7 @@ pub(super) fn halt(
     }
     let rubs: Vec<usize> = contacts.iter().filter_map(|k| model.forces[*k].partner).list();
     if !rubs.is_empty() {
-        let still = STILL * place.rate_scale(&model.in_modes(&[]));
+        let still = STILL * place.rate_scale(&place.phase(model, &[]));
         let slow = rubs.iter().copied().zip(place.thresholds(model, &rubs));
         moving.extend(slow.filter(|(k, speed)| speed.abs() <= still * place.unit(model, *k)));
     }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `at_rest` | friction at states outside of runs |
 //! | `mode_events` | the functions whose zeros may change a mode |
+//! | `phases` | models in modes that are tried |
 //! | `place` | a state at which modes are determined |
 //! | `impact` | one impact: its impulses and the velocities after it |
 //! | `impacts` | jumps of velocities where contacts hit |
@@ -26,6 +27,7 @@ mod impact;
 mod impacts;
 mod jam;
 mod mode_events;
+mod phases;
 mod place;
 mod sliding_contacts;
 mod taking_part;
