@@ -1,7 +1,7 @@
-"""Friction of mechanisms of other lengths, masses and times against closed forms and scaling laws.
+"""Friction in other units of length, mass and time, against closed forms and laws of scale.
 
-Models are written for the units 1 m, 1 kg and 1 s and realised in others. Each result divided by its
-unit must be the same.
+Models are written for the units 1 m, 1 kg and 1 s and realised in others. Each result divided by
+its unit must be the same.
 """
 
 from dataclasses import dataclass
@@ -137,7 +137,7 @@ def toggle(u: Units) -> kp.Solution:
 
 @units
 def test_a_brake_acts_on_both_sides_of_a_dead_point(u: Units) -> None:
-    """The rocker reverses while the crank moves on, so that neither the brake nor the pin sticks."""
+    """The rocker reverses while the crank moves on: neither the brake nor the pin sticks."""
     run = toggle(u)
     turned = run(np.linspace(0, 1.2, 400) * u.time)
     assert np.ptp(np.sign(turned["rocker.omega"])) == 2
