@@ -15,7 +15,7 @@ use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::leading;
 use crate::math::Listed;
-use crate::model::{size, DriverSet, ForceMode, Model};
+use crate::model::{DriverSet, ForceMode, Model};
 
 /// Rate at which friction without its own equation begins to slide, relative to the rates of the mechanism.
 const BEGINS: f64 = 1e-6;
