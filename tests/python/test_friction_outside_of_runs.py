@@ -6,6 +6,7 @@ from pathlib import Path
 import kempe as kp
 import numpy as np
 import pytest
+from kempe.results import friction_at_rest
 
 DWELL = "step5(t, 0.5, 0, 1, 1) - step5(t, 2, 0, 2.5, 1)"
 SCALES = [(1e-3, 1e-2), (1.0, 1.0), (1e3, 30.0)]
@@ -134,3 +135,17 @@ def test_a_sweep_says_which_value_is_given() -> None:
     case = kp.Case(m, analyses=[kp.Dynamics(t_end=0.8)])
     found = kp.sweep(case, {"S.displacement": [0, 0]}, ["push.final", "push.max"])
     assert dict(found.choices) == dict.fromkeys(found.measures, "middle of friction at rest")
+
+
+def test_states_between_outputs_are_decided_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The states that close the joints do not depend on friction, so that only they are decided."""
+    m = block(2.0, 1.0)
+    sol = kp.inverse_dynamics(m, kp.assemble(m), t_end=3, output_step=0.05)
+    calls = []
+    found = friction_at_rest.phases
+    monkeypatch.setattr(
+        friction_at_rest, "phases", lambda motion: calls.append(motion) or found(motion)
+    )
+    effort = sol(np.linspace(0, 3, 7))["D.effort"]
+    assert len(calls) == 1
+    np.testing.assert_allclose(effort[0], np.mean(ends(2.0)), rtol=1e-12)

@@ -96,16 +96,16 @@ impl ReactionBalance {
     }
 
     /// The residuals relative to their scales: of each body, the larger of force and moment, then of each internal
-    /// coordinate. NaN where the reactions are not unique.
-    pub fn shares(&self, at: &Balances) -> Vec<f64> {
+    /// coordinate. The scales are at least those of the force `least`, N. NaN where the reactions are not unique.
+    pub fn shares(&self, at: &Balances, least: f64) -> Vec<f64> {
         let most = |k: usize| self.largest.iter().fold(0.0, |most: f64, own| most.max(own[k]));
         let [mut force, mut moment] = [most(0), most(1)];
         if self.lever > 0.0 {
             [force, moment] = [force.max(moment / self.lever), moment.max(force * self.lever)];
         }
         let of_body = |(own, body): (&[f64; 2], &BodyBalance)| {
-            let force_scale = or_one(own[0].max(RESOLVED_FORCE * force));
-            let moment_scale = or_one(own[1].max(RESOLVED_FORCE * moment));
+            let force_scale = or_one(own[0].max(RESOLVED_FORCE * force).max(least));
+            let moment_scale = or_one(own[1].max(RESOLVED_FORCE * moment).max(least * self.lever));
             larger(body.force / force_scale, body.moment / moment_scale)
         };
         let bodies = self.largest.iter().zip(&at.bodies).map(of_body);
@@ -117,7 +117,7 @@ impl ReactionBalance {
 
     /// The largest share at a state.
     pub fn largest(&self, at: &Balances) -> f64 {
-        self.shares(at).into_iter().fold(0.0, larger)
+        self.shares(at, 0.0).into_iter().fold(0.0, larger)
     }
 }
 
@@ -183,6 +183,6 @@ mod tests {
         balance.add(&at);
         // the second one has no effort of its own: 1e-4 of 100 N times the lever
         let wanted = [0.0, 0.25, 0.5];
-        assert!(balance.shares(&at).iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-15));
+        assert!(balance.shares(&at, 0.0).iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-15));
     }
 }

@@ -3,7 +3,7 @@
 //! They are limits of driven motions, as dead points are. Positions beyond them are refused, and so are accelerations
 //! of a state that presses or moves into them.
 
-use crate::elements::{Behaviour, Mode};
+use crate::elements::{Behaviour, Mode, QuantityKind};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::math::{Listed, Real};
@@ -17,10 +17,15 @@ pub fn is_rigid(model: &Model, force: usize) -> bool {
     matches!(model.forces[force].element.behaviour(), Some(Behaviour::Impacts { .. }))
 }
 
-/// The size of the mechanism for a gap that is a length, 1 rad for one that is an angle.
+/// The size of the mechanism for a gap or a way of friction that is a length, 1 rad for one that is an angle.
 pub fn unit<S: Real>(model: &Model<S>, size: f64, force: usize) -> f64 {
-    let measured = model.forces[force].element.measured().first();
-    measured.map(|of| of.kind).unwrap_or_default().scale(size)
+    let element = &model.forces[force].element;
+    let effort = element.result_quantities().first();
+    let kind = match element.measured().first() {
+        Some(measured) => Some(measured.kind),
+        None => effort.and_then(|of| QuantityKind::of_effort(of.unit)),
+    };
+    kind.unwrap_or_default().scale(size)
 }
 
 /// The stops and contacts with restitution of a model, without those for which a run has decided.

@@ -34,6 +34,11 @@ impl QuantityKind {
         ["N", "N*m", "J"][self as usize]
     }
 
+    /// The kind of a quantity along which an effort has this unit.
+    pub fn of_effort(unit: &str) -> Option<Self> {
+        [Self::Length, Self::Angle, Self::Pure].into_iter().find(|of| of.unit_of_effort() == unit)
+    }
+
     /// The kind with this unit.
     pub fn of_unit(unit: &str) -> Option<Self> {
         [Self::Length, Self::Angle, Self::Pure].into_iter().find(|kind| kind.unit() == unit)

@@ -19,6 +19,17 @@ pub fn kinetic<S: Real>(model: &Model<S>, motions: &[Motion<S>]) -> S {
     S::constant(0.5) * twice
 }
 
+/// The kinetic energy of motions in which those of the frame and of the mass centre about it do not cancel, J. The
+/// rounding errors of forces of inertia are in proportion to it.
+pub fn stirred(model: &Model, motions: &[Motion<f64>]) -> f64 {
+    let of = |(body, motion): (&Body<f64>, &Motion<f64>)| {
+        let Twist { velocity, omega } = motion.twist;
+        let about = body.inertia + body.mass * body.center.dot(body.center);
+        0.5 * (body.mass * velocity.dot(velocity) + about * omega * omega)
+    };
+    moving(model, motions).map(of).sum()
+}
+
 /// The largest force of inertia of a body, N, where `motions` have accelerations in place of rates. A couple J α counts
 /// as a force at the arm `size`.
 pub fn largest_inertia(model: &Model, motions: &[Motion<f64>], size: f64) -> f64 {

@@ -23,6 +23,7 @@ pub mod kinematics;
 mod laws;
 pub mod leading;
 mod light;
+mod load_changes;
 pub mod mass;
 pub mod measured;
 pub mod motion;

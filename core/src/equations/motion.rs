@@ -15,7 +15,7 @@ use super::kinematics::Motions;
 use super::plan::Plan;
 use super::powers::Powers;
 use super::roles::{self, Roles};
-use super::{mass, reactive, refine, Compiled};
+use super::{load_changes, mass, reactive, refine, Compiled};
 use crate::math::Real;
 use crate::model::Model;
 use crate::solve::Breakdown;
@@ -321,7 +321,7 @@ impl<S: Real> Workspace<S> {
         })?;
         let mut inertial = vec![S::zero(); n];
         mass::add_times(model, motions, &solution[..n], &mut inertial);
-        let force = reactive::largest(inertial.iter().copied());
+        let force = load_changes::largest(inertial.iter().copied());
         match sources.add((reactive, padded, force), solution, powers) {
             true => Ok(()),
             false => Err(Breakdown::Reaction(row)),

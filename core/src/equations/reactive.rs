@@ -18,16 +18,17 @@
 
 use super::forces::{self, Acting};
 use super::kinematics::Motions;
+use super::load_changes::{largest, LoadRows};
 use super::powers::Powers;
 use super::reactions;
 use crate::elements::{ForceElement, Mode, Situation};
-use crate::math::{Largest, Listed, Real, Wrench};
+use crate::math::{Listed, Real, Wrench};
 use crate::model::Model;
 use std::borrow::Cow;
 
 /// Largest number of iterations for one factor of the forces.
 const MOST: usize = 12;
-/// Accepted change of the multipliers, relative to the largest of the multipliers on which the efforts depend.
+/// Accepted change of the multipliers of a load, relative to the load.
 const ACCEPTED: f64 = 1e-12;
 /// Accepted change of the multipliers, relative to the largest multiplier of the mechanism, if the change no longer
 /// decreases.
@@ -169,6 +170,7 @@ struct Source<S> {
 pub(super) struct Sources<'m, S: Clone> {
     bearings: Vec<LoadedBearing<'m, S>>,
     all: Vec<Source<S>>,
+    loads: LoadRows,
 }
 
 impl<'m, S: Real> Sources<'m, S> {
@@ -185,7 +187,8 @@ impl<'m, S: Real> Sources<'m, S> {
         let own = (0..model.forces.len()).filter(|k| takes_part(model, *k));
         let bearings: Vec<_> = own.map(|k| LoadedBearing::new(model, k, motions, acting)).list();
         let place = |k: usize| bearings.iter().position(|of| of.force == k);
-        let mut all = Vec::new();
+        let (mut all, mut loads) = (Vec::new(), LoadRows::default());
+        bearings.iter().for_each(|of| loads.add(of.first, &of.units));
         let mut direction = vec![S::zero(); model.layout.n_q];
         for (own, bearing) in bearings.iter().enumerate() {
             let effort = match model.forces[bearing.force].mode {
@@ -193,6 +196,7 @@ impl<'m, S: Real> Sources<'m, S> {
                 Mode::Follows { leader, sense } => {
                     let row = model.forces[leader].held_row;
                     let (leader, row) = place(leader).zip(row).expect("it takes part and holds");
+                    loads.add_rows(row..row + 1);
                     Effort::Follows { own, leader, row, sense }
                 }
                 _ => Effort::Slides(own),
@@ -204,11 +208,12 @@ impl<'m, S: Real> Sources<'m, S> {
         for joint in reactions::loaded(model) {
             direction.fill(S::zero());
             let rows = model.layout.constraints[joint].rows.clone();
+            loads.add_rows(rows.start..rows.start + 1);
             let unit = vec![S::one(); rows.len()];
             reactions::add_load(model, joint, motions, acting.t, &unit, &mut direction);
             all.push(Source { effort: Effort::Load(rows.start), response: respond(&direction)? });
         }
-        Ok(Self { bearings, all })
+        Ok(Self { bearings, all, loads })
     }
 
     /// The effort of a source. Passes its derivatives with respect to multipliers to `slope`; those of limits of
@@ -327,7 +332,7 @@ impl<S: Real> Path<'_, S> {
     /// Newton's method from `efforts`. Returns whether it converged with positive determinants.
     fn newton(&self, efforts: &mut [S], factor: S, limits: bool) -> bool {
         let all = &self.sources.all;
-        let mut last = f64::INFINITY;
+        let (mut last, mut before) = (f64::INFINITY, 1.0_f64);
         let mut columns = vec![vec![S::zero(); all.len()]; all.len()];
         let (mut lam, mut change) = (self.free.to_vec(), self.free.to_vec());
         for _ in 0..MOST {
@@ -356,12 +361,13 @@ impl<S: Real> Path<'_, S> {
             let Some(step) = eliminate(&mut columns, gap) else { return false };
             efforts.iter_mut().zip(step).for_each(|(effort, step)| *effort += step);
             let rounding = noise.max(ROUNDING * most);
+            let part = self.sources.loads.largest_part(&lam, &change, noise);
             // the next change, because Newton's method squares the error
-            let next = left * (left / last.min(size)).powi(2);
-            if left.min(next) <= ACCEPTED * size || (left >= last && left <= rounding) {
+            let next = part * (part / before.min(1.0)).powi(2);
+            if part.min(next) <= ACCEPTED || (left >= last && left <= rounding) {
                 return true;
             }
-            last = left;
+            (last, before) = (left, part);
         }
         false
     }
@@ -388,11 +394,4 @@ fn eliminate<S: Real>(columns: &mut [Vec<S>], mut b: Vec<S>) -> Option<Vec<S>> {
     let positive = determinant.in_lanes().iter().all(|sign| *sign > 0.0);
     let x: Vec<S> = b.iter().enumerate().map(|(k, b)| *b / columns[k][k]).list();
     (positive && x.iter().all(|x| x.is_finite())).then_some(x)
-}
-
-/// Largest magnitude over all entries and lanes. NaN if an entry is NaN.
-pub(super) fn largest<S: Real>(x: impl Iterator<Item = S>) -> f64 {
-    let mut largest = Largest::new();
-    x.for_each(|x| largest.add(x));
-    largest.get()
 }

@@ -279,11 +279,13 @@ class Solution(WithSlopes, Tables, Motion):
         motion.variable = self.variable
         motion._passing, motion._phases = self._passing, self._phases_at(times)
         if (tolerance := self._run.projection) is not None:
+            # friction at rest does not change the states that close the joints
+            motion.__dict__["_decided"] = motion._phases
             q, v = motion._asked(lambda states: states.project(tolerance))
             rates = np.zeros_like(v) if self.variable.static else v
             q, v = fixed(q), fixed(rates)
             motion.q, motion.v = q, v
-            motion.__dict__.pop("_decided", None)  # of the states before
+            del motion.__dict__["_decided"]
         if at.ndim:
             return motion
         own = motion._phases

@@ -20,6 +20,7 @@ use super::trajectory::States;
 use super::ENERGIES;
 use crate::analyses::balances::{EnergyBalance, ReactionBalance};
 use crate::equations::constraints;
+use crate::equations::energy;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::newton_euler::{self, Balances};
@@ -35,6 +36,8 @@ const DRIFT: f64 = 1e-4;
 const BESIDE: f64 = 1e-8;
 /// Part of the largest regularity below which a state is beside a singular position.
 const NEAR: f64 = 0.3;
+/// Part of the kinetic energy per size below which the errors of forces are rounding errors, although no force acts.
+const ROUNDED: f64 = 1e-6;
 /// Part of the energy of a usual motion below which energies are rounding errors.
 const LEAST: f64 = 1e-9;
 
@@ -62,6 +65,8 @@ pub(super) struct Guard {
     energy: EnergyBalance,
     change: Worst,
     reactions: ReactionBalance,
+    /// A force whose errors matter, N.
+    least_force: f64,
     /// The examined states, each with its time and regularity.
     examined: Vec<(f64, f64, Balances)>,
     /// The balance without the efforts that equations of second order imply, with the coordinates that they keep.
@@ -119,6 +124,7 @@ impl Guard {
             energy: EnergyBalance::new(),
             change: Worst::default(),
             reactions: ReactionBalance::default(),
+            least_force: 0.0,
             examined: Vec::new(),
             left_out: Worst::default(),
             regularity: 0.0,
@@ -194,6 +200,8 @@ impl Guard {
             let acting = Acting { z, lam: Some(&lam[k * m..(k + 1) * m]), t };
             let at = newton_euler::balances(model, &motions, &a[k * n..(k + 1) * n], acting);
             self.reactions.add(&at);
+            let rounded = ROUNDED * energy::stirred(model, &motions) / size(model);
+            self.least_force = self.least_force.max(rounded);
             self.look_at_implied(model, &motions, &a[k * n..(k + 1) * n], acting);
             self.regularity = self.regularity.max(regularity[k]);
             self.examined.push((t, regularity[k], at));
@@ -297,7 +305,7 @@ impl Guard {
         for (t, regularity, at) in &self.examined {
             let part = regularity / self.regularity;
             let regular = if part < NEAR { 0.1 * part * part } else { 1.0 };
-            for (k, share) in self.reactions.shares(at).into_iter().enumerate() {
+            for (k, share) in self.reactions.shares(at, self.least_force).into_iter().enumerate() {
                 worst.see(share * regular, *t, || name(k));
             }
         }

@@ -209,7 +209,7 @@ impl Force for Friction {
     }
 
     fn threshold<S: Real>(e: &Friction<S>, at: &Situation<'_, S>) -> S {
-        e.speed(at)
+        e.joint.rate(at.i(), at.j())
     }
 
     fn limit<S: Real>(e: &Friction<S>, at: &Situation<'_, S>) -> (S, Wrench<S>) {

@@ -8,6 +8,7 @@ use super::holding;
 use super::place::{drivers_rest, with_modes, StateAt, STILL};
 use crate::elements::{Behaviour, Mode};
 use crate::model::{DriverSet, ForceMode, Model};
+use std::rc::Rc;
 
 /// Whether friction of a model may be at rest, so that its modes depend on the state.
 pub fn can_stick(model: &Model) -> bool {
@@ -34,13 +35,16 @@ pub fn friction_modes(
     }
     let drivers = (0..model.constraints.len()).filter(|k| model.constraints[*k].driven);
     let drivers: Vec<DriverSet> = drivers.map(|k| DriverSet::of([k])).collect();
+    let phases = Rc::default();
     let own = |(k, t): (usize, &f64)| {
         let row = k * n..(k + 1) * n;
         let [q, v, z] = [&q[row.clone()], &v[row], &z[k * n_z..(k + 1) * n_z]];
         let mut y = [q, v, z, &vec![0.0; model.layout.n_works]].concat();
-        let mut place = StateAt::new(model, *t, &mut y);
-        let still = STILL * place.speed_scale(model, &[]);
-        let slow = place.thresholds(model, &all).iter().any(|speed| speed.abs() <= still);
+        let mut place = StateAt::new(model, *t, &mut y).sharing(&phases);
+        let still = STILL * place.rate_scale(&place.phase(model, &[]));
+        let speeds = place.thresholds(model, &all);
+        let slow =
+            all.iter().zip(speeds).any(|(k, speed)| speed.abs() <= still * place.unit(model, *k));
         if !slow && !drivers.iter().any(|own| drivers_rest(model, *own, *t, q)) {
             return Ok(Vec::new());
         }

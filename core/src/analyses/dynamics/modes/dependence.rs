@@ -6,17 +6,18 @@
 
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
-use super::place::{drivers_rest, largest, mode_of, StateAt, STILL};
+use super::place::{drivers_rest, largest, mode_of, scaled, StateAt, NOISE, STILL};
 use crate::analyses::mobility::dependent_equations;
 use crate::analyses::second_order::mobility;
 use crate::elements::{Behaviour, Mode};
 use crate::equations::constraints;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
+use crate::equations::leading;
 use crate::math::Listed;
-use crate::model::{size, DriverSet, ForceMode, Model};
+use crate::model::{DriverSet, ForceMode, Model};
 
-/// Speed at which friction without its own equation begins to slide, relative to the speeds of the mechanism.
+/// Rate at which friction without its own equation begins to slide, relative to the rates of the mechanism.
 const BEGINS: f64 = 1e-6;
 
 /// The modes of forces that hold together: their equations are independent of each other and of the joints. `free`
@@ -30,7 +31,7 @@ pub(super) fn independent(
     let holds = |(k, side): &(usize, f64)| ForceMode::new(*k, Mode::Holds(*side));
     let all: Vec<ForceMode> = candidates.iter().map(holds).list();
     let [q, ..] = place.state(model);
-    let phase = model.in_modes(&all);
+    let phase = place.phase(model, &all);
     if dependent_equations(&phase, place.t, q, &|| false).is_empty() {
         let row = |own: &ForceMode| phase.forces[own.force].held_row.expect("it holds");
         let with_value =
@@ -42,7 +43,7 @@ pub(super) fn independent(
     for own in all {
         let mut tried = held.clone();
         tried.push(own);
-        let phase = model.in_modes(&tried);
+        let phase = place.phase(model, &tried);
         let found = dependent_equations(&phase, place.t, q, &|| false);
         let row = phase.forces[own.force].held_row.expect("it holds");
         let last = phase.layout.owner(row).0;
@@ -75,7 +76,7 @@ pub(super) fn keep_closed(
         }
         let mut tried = held.clone();
         tried.push(ForceMode::new(*k, Mode::Holds(place.sides(model, &[*k])[0])));
-        let phase = model.in_modes(&tried);
+        let phase = place.phase(model, &tried);
         let found = dependent_equations(&phase, place.t, place.state(model)[0], &|| false);
         let row = phase.forces[*k].held_row.expect("it holds");
         let last = phase.layout.owner(row).0;
@@ -109,9 +110,11 @@ fn dependent(
     if !matches!(model.forces[force].element.behaviour(), Some(Behaviour::Sticks)) {
         return of(Mode::Idle, 0.0);
     }
-    let begins = BEGINS * place.speed_scale(model, held).max(size(model));
-    if passes(model, place, held, (force, free, begins)) {
-        return of(free, 0.0);
+    // where nothing moves, at the rate at which drivers no longer stand still
+    let rate = (BEGINS * place.rate_scale(&place.phase(model, held))).max(STILL);
+    let begins = rate * place.unit(model, force);
+    if let Some(sign) = passes(model, place, held, (force, free, begins)) {
+        return of(Mode::Slides(sign), 0.0);
     }
     match leader(model, place, held, force) {
         Some((leader, sense)) => of(Mode::Follows { leader, sense }, begins),
@@ -128,7 +131,7 @@ fn leader(
 ) -> Option<(usize, f64)> {
     let sticks = |k: usize| matches!(model.forces[k].element.behaviour(), Some(Behaviour::Sticks));
     let [q, _, z] = place.state(model);
-    let phase = model.in_modes(held);
+    let phase = place.phase(model, held);
     let mut workspace = workspace_at((&phase, &ModelCache::default()), place.t, place.state(model));
     let speed = |v: &[f64]| {
         let motions = Motions::at(&model.layout, q, v);
@@ -148,26 +151,60 @@ fn leader(
     found.map(|(ratio, leader)| (leader, ratio.signum()))
 }
 
-/// Whether friction whose speed is zero for a moment continues to slide: the speed changes its sign while the
-/// mechanism moves, or a driver begins to move it. The speed or the acceleration then has the direction of sliding.
+/// Friction whose limit is too small to lead the friction that follows it. The efforts of the others are not found from
+/// its own, so that the friction that leads here carries the effort of all.
+pub(super) fn overtaken(model: &Model, place: &StateAt<'_>, modes: &[ForceMode]) -> Option<usize> {
+    let alone = modes.iter().map(|of| match of.mode {
+        Mode::Follows { .. } => ForceMode { mode: Mode::Idle, ..*of },
+        _ => *of,
+    });
+    let alone: Vec<ForceMode> = alone.list();
+    if alone == modes {
+        return None;
+    }
+    let (alone, phase) = (place.phase(model, &alone), place.phase(model, modes));
+    let solved = place.solved(&alone).ok()?;
+    let [q, v, z] = place.state(&phase);
+    let motions = Motions::at(&phase.layout, q, v);
+    let acting = Acting { z, lam: Some(solved.lam()), t: place.t };
+    let noise = NOISE * place.force_scale(&alone, Some(&solved));
+    let follows = |k: usize| move |of: &&ForceMode| matches!(of.mode, Mode::Follows { leader, .. } if leader == k);
+    let is_overtaken = |k: &usize| {
+        let Some(beyond) = leading::lead(&phase, *k, &motions, acting, noise) else { return false };
+        // without load and limit, one that can push takes the load that comes
+        let limit = |k: usize, sense| leading::limit(&phase, k, &motions, acting, sense);
+        let pushes = |of: &ForceMode| limit(of.force, 1.0).max(limit(of.force, -1.0)) > noise;
+        let idle = limit(*k, 1.0).max(limit(*k, -1.0)) <= noise;
+        beyond < 0.0 || idle && modes.iter().filter(follows(*k)).any(pushes)
+    };
+    (0..phase.forces.len()).find(is_overtaken)
+}
+
+/// The direction in which friction whose speed is zero for a moment slides: the speed changes its sign while the mechanism
+/// moves, or a driver begins to move it. It is that of the speed or of the acceleration. None if the friction rests.
 fn passes(
     model: &Model,
     place: &StateAt<'_>,
     held: &[ForceMode],
     (force, free, begins): (usize, Mode, f64),
-) -> bool {
-    let (Mode::Slides(sign), Ok(workspace)) = (free, place.solved(&model.in_modes(held))) else {
-        return false;
-    };
+) -> Option<f64> {
+    let phase = place.phase(model, held);
+    let (Mode::Slides(sign), Ok(workspace)) = (free, place.solved(&phase)) else { return None };
     let jet = place.gap_jets(model, &[force], workspace.a())[0];
     // the holding forces may keep the whole mechanism at rest; its accelerations are then rounding errors of the
     // accelerations without these forces
-    let free = place.solved(model).map_or(0.0, |free| largest(free.a()));
-    let fastest = largest(workspace.a()).max(free).max(size(model));
+    let free = place.solved(model).map_or(0.0, |free| scaled(model, free.a()));
+    // where no force acts, all of them are rounding errors
+    let fastest = scaled(&phase, workspace.a()).max(free).max(1.0);
     // the speed of a joint whose drivers stand still is an error
     let [q, ..] = place.state(model);
     let rests = || drivers_rest(model, holders(model, place, force), place.t, q);
-    sign * jet.value > 0.5 * begins && !rests() || sign * jet.rate > STILL * fastest
+    let still = STILL * fastest * place.unit(model, force);
+    if sign * jet.rate > still || sign * jet.value > 0.5 * begins && !rests() {
+        return Some(sign);
+    }
+    // the event of another force has come first where the speed changes its sign
+    (-sign * jet.rate > still && !rests()).then_some(-sign)
 }
 
 /// The drivers that hold the coordinate of a stop or of friction, together with joints.
@@ -177,7 +214,7 @@ pub fn holders(model: &Model, place: &StateAt<'_>, force: usize) -> DriverSet {
     }
     let [q, ..] = place.state(model);
     let at = |value: f64| {
-        model.in_modes(&[ForceMode { value, ..ForceMode::new(force, Mode::Holds(0.0)) }])
+        place.phase(model, &[ForceMode { value, ..ForceMode::new(force, Mode::Holds(0.0)) }])
     };
     let open = at(0.0);
     let Some(row) = open.forces[force].held_row else { return DriverSet::default() };
@@ -185,10 +222,12 @@ pub fn holders(model: &Model, place: &StateAt<'_>, force: usize) -> DriverSet {
     constraints::residual(&open, &Motions::at_rest(&open.layout, q), place.t, &mut residual);
     let held = at(residual[row]);
     let last = held.layout.owner(row).0;
-    let found = mobility(&held, place.t, q);
-    let group = found.redundant.into_iter().find(|group| group.contains(&last));
-    let driven = |k: &usize| model.constraints.get(*k).is_some_and(|item| item.driven);
-    DriverSet::of(group.into_iter().flatten().filter(driven))
+    held.holders(q, || {
+        let found = mobility(&held, place.t, q);
+        let group = found.redundant.into_iter().find(|group| group.contains(&last));
+        let driven = |k: &usize| model.constraints.get(*k).is_some_and(|item| item.driven);
+        DriverSet::of(group.into_iter().flatten().filter(driven))
+    })
 }
 
 /// The drivers that hold the coordinates of forces with friction.

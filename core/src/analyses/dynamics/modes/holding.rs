@@ -6,9 +6,9 @@
 
 use super::super::failure::Failure;
 use super::companions;
-use super::dependence::{holders_of_friction, independent};
+use super::dependence::{holders_of_friction, independent, overtaken};
 use super::impacts::{self, restitution};
-use super::place::{drivers_rest, largest, mode_of, with_modes, StateAt, STILL};
+use super::place::{drivers_rest, mode_of, scaled, with_modes, StateAt, NOISE, STILL};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
@@ -26,8 +26,6 @@ const USED_UP: f64 = 1e-6;
 const LOW: f64 = 1e-10;
 /// Largest number of combinations that are tried.
 const MOST_TRIED: usize = 1500;
-/// Forces below this fraction of the forces of a state are noise.
-const NOISE: f64 = 1e-13;
 
 /// The modes of all forces that have modes. The arguments include the contacts that touch, the largest rate before a
 /// jump if the velocities jumped, the forces whose modes ended, and those that have ceased to hold at this time.
@@ -43,7 +41,7 @@ pub(super) fn decide(
     let all: Vec<usize> = with_modes(model).list();
     let thresholds = place.thresholds(model, &all);
     // after an impact that stops the mechanism, only rounding errors of the speeds remain
-    let speed = place.speed_scale(model, before).max(jumped.unwrap_or(0.0));
+    let rate = place.rate_scale(&place.phase(model, before)).max(jumped.unwrap_or(0.0));
     let jumped = jumped.is_some();
     let holders = holders_of_friction(model, place, &all);
     let (mut modes, mut candidates) = (Vec::new(), Vec::new());
@@ -55,7 +53,8 @@ pub(super) fn decide(
         let (free, candidate) = match model.forces[*k].element.behaviour() {
             Some(Behaviour::Sticks) => {
                 let rests = drivers_rest(model, *holders, place.t, place.state(model)[0]);
-                let still = threshold.abs() <= STILL * speed || *threshold == 0.0 || rests;
+                let least = STILL * rate * place.unit(model, *k);
+                let still = threshold.abs() <= least || *threshold == 0.0 || rests;
                 let ended = !jumped && fired.contains(k);
                 let old = if jumped { Mode::Open } else { mode_of(before, *k) };
                 let direction = match old {
@@ -85,7 +84,7 @@ pub(super) fn decide(
         let at = all.iter().position(|k| *k == own.force);
         own.held_by = at.map(|at| holders[at]).unwrap_or_default();
     }
-    give_speed_slack(&mut modes, &thresholds, speed);
+    give_speed_slack((model, place), &mut modes, &thresholds, rate);
     Ok(modes)
 }
 
@@ -119,7 +118,7 @@ fn give_slack(
 ) {
     let rates = place.gap_rates(model, touching);
     let gaps = place.thresholds(model, touching);
-    let phase = model.in_modes(modes);
+    let phase = place.phase(model, modes);
     let noise = NOISE * place.force_scale(&phase, place.solved(&phase).ok().as_ref());
     for own in modes {
         let at = touching.iter().position(|k| *k == own.force);
@@ -144,10 +143,16 @@ fn give_slack(
     }
 }
 
-/// Sets the slack of friction that begins to slide, for speeds that are small beside that of the mechanism.
-fn give_speed_slack(modes: &mut [ForceMode], thresholds: &[f64], speed: f64) {
+/// Sets the slack of friction that begins to slide, for speeds that are small beside the rate of the mechanism.
+fn give_speed_slack(
+    (model, place): (&Model, &StateAt<'_>),
+    modes: &mut [ForceMode],
+    thresholds: &[f64],
+    rate: f64,
+) {
     for (own, threshold) in modes.iter_mut().zip(thresholds) {
         let Mode::Slides(sign) = own.mode else { continue };
+        let speed = rate * place.unit(model, own.force);
         if sign * threshold <= STILL * speed {
             // a speed that counts as zero may have the opposite direction, and at rest it consists of rounding errors
             own.slack = (-2.0 * sign * threshold).max(NOISE * speed);
@@ -177,7 +182,7 @@ fn at_rest(
         let sides = rest.iter().copied().zip(place.sides(model, &rest)).list();
         let modes =
             if rest.is_empty() { free.clone() } else { with_held(model, place, &free, &sides) };
-        let workspace = match place.solved(&model.in_modes(&modes)) {
+        let workspace = match place.solved(&place.phase(model, &modes)) {
             Err(_) if !rest.is_empty() => return Ok(rest),
             solved => solved?,
         };
@@ -228,10 +233,10 @@ fn hold(
                 _ => {}
             }
         }
-        let modes = with_held(model, place, &now, &left);
+        let modes = well_led(model, place, &now, &left);
         let ended = with_leaders(&modes, ended);
         // with friction in contradictory directions there may be no solution
-        if matches!(worst(&model.in_modes(&modes), place, &ended), Ok(None)) && fits(&modes) {
+        if matches!(worst(&place.phase(model, &modes), place, &ended), Ok(None)) && fits(&modes) {
             return Ok(modes);
         }
     }
@@ -247,9 +252,9 @@ fn released(
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
     let mut left = all.to_vec();
     loop {
-        let modes = with_held(model, place, &now, &left);
+        let modes = well_led(model, place, &now, &left);
         let ended = with_leaders(&modes, ended);
-        let Some((force, slides)) = worst(&model.in_modes(&modes), place, &ended)? else {
+        let Some((force, slides)) = worst(&place.phase(model, &modes), place, &ended)? else {
             return Ok(modes);
         };
         left.retain(|(k, _)| *k != force);
@@ -257,6 +262,24 @@ fn released(
         if let Some(sign) = slides {
             own.mode = Mode::Slides(sign);
         }
+    }
+}
+
+/// The modes with some forces held. Friction leads other friction only if its limit is large enough while all hold.
+fn well_led(
+    model: &Model,
+    place: &StateAt<'_>,
+    free: &[ForceMode],
+    left: &[(usize, f64)],
+) -> Vec<ForceMode> {
+    let (mut left, mut last) = (left.to_vec(), Vec::new());
+    loop {
+        let modes = with_held(model, place, free, &left);
+        let Some(k) = overtaken(model, place, &modes).filter(|k| !last.contains(k)) else {
+            return modes;
+        };
+        last.push(k);
+        left.order_by_key(|(of, _)| last.contains(of));
     }
 }
 
@@ -287,14 +310,14 @@ fn moves_apart(
     modes: &[ForceMode],
     candidates: &[usize],
 ) -> bool {
-    let phase = model.in_modes(modes);
+    let phase = place.phase(model, modes);
     let Ok(workspace) = place.solved(&phase) else { return false };
-    let fastest = largest(workspace.a());
+    let still = STILL * scaled(&phase, workspace.a());
     let gaps = place.gap_jets(model, candidates, workspace.a());
     let fits = |(k, jet): (&usize, Jet)| match mode_of(modes, *k) {
         Mode::Free if model.forces[*k].is_companion => true,
-        Mode::Free => jet.second >= -STILL * fastest,
-        Mode::Slides(sign) => sign * jet.rate >= -STILL * fastest,
+        Mode::Free => jet.second >= -still * place.unit(model, *k),
+        Mode::Slides(sign) => sign * jet.rate >= -still * place.unit(model, *k),
         _ => true,
     };
     candidates.iter().zip(gaps).all(fits)

@@ -273,9 +273,9 @@ pub(super) fn halt(
     }
     let rubs: Vec<usize> = contacts.iter().filter_map(|k| model.forces[*k].partner).list();
     if !rubs.is_empty() {
-        let still = STILL * place.speed_scale(model, &[]);
+        let still = STILL * place.rate_scale(&place.phase(model, &[]));
         let slow = rubs.iter().copied().zip(place.thresholds(model, &rubs));
-        moving.extend(slow.filter(|(_, speed)| speed.abs() <= still));
+        moving.extend(slow.filter(|(k, speed)| speed.abs() <= still * place.unit(model, *k)));
     }
     let impact = hit(model, place, &moving, &|_| 0.0)?;
     impact.apply(model, place, &mut vec![0.0; model.n_multipliers()]);

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `at_rest` | friction at states outside of runs |
 //! | `mode_events` | the functions whose zeros may change a mode |
+//! | `phases` | models in modes that are tried |
 //! | `place` | a state at which modes are determined |
 //! | `impact` | one impact: its impulses and the velocities after it |
 //! | `impacts` | jumps of velocities where contacts hit |
@@ -26,6 +27,7 @@ mod impact;
 mod impacts;
 mod jam;
 mod mode_events;
+mod phases;
 mod place;
 mod sliding_contacts;
 mod taking_part;
@@ -38,7 +40,7 @@ pub(super) use sliding_contacts::{lost, Uniqueness, MOST};
 pub(super) use taking_part::Settled;
 
 use crate::math::Listed;
-use place::{largest, with_modes};
+use place::with_modes;
 
 use super::failure::{Failure, Reason};
 use super::options::{ImpactLaws, Jam};
@@ -100,7 +102,7 @@ fn settle_part(
     ended: &Ended,
     laws: ImpactLaws,
 ) -> Result<Settled, Box<Failure>> {
-    let fastest = largest(place.state(model)[1]);
+    let fastest = place.fastest(model);
     let mut found = impacts::resolve(model, place, touching, laws)?;
     let (mut jammed, mut lost) = (Vec::new(), ended.lost.as_slice());
     let mut modes = loop {

@@ -3,6 +3,7 @@
 use super::super::failure::{Failure, Reason};
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
+use super::phases::{TriedPhase, TriedPhases};
 pub use crate::analyses::rigid::{is_rigid as is_contact, unit};
 use crate::elements::Mode;
 use crate::equations::forces::{self, Acting};
@@ -13,10 +14,13 @@ use crate::equations::{Gains, Workspace};
 use crate::math::Listed;
 use crate::math::{Jet, Lift, Real, ShortArray};
 use crate::model::{column_scales, row_scales, size, DriverSet, ForceMode, Model};
+use std::rc::Rc;
 
-/// Speeds of friction below this value count as zero, relative to the speeds of the mechanism; accelerations
-/// likewise.
+/// Rates of friction below this value count as zero, relative to the rates of the mechanism; accelerations likewise.
 pub const STILL: f64 = 1e-9;
+
+/// Forces below this fraction of the forces of a state are noise.
+pub const NOISE: f64 = 1e-13;
 
 /// Limit of friction below which it does not lead, relative to the largest one.
 const WEAK: f64 = 1e-2;
@@ -39,6 +43,7 @@ pub struct StateAt<'y> {
     size: f64,
     /// The largest coordinate in units of its scale, at least 1.
     far: f64,
+    phases: Rc<TriedPhases>,
 }
 
 impl<'y> StateAt<'y> {
@@ -47,12 +52,22 @@ impl<'y> StateAt<'y> {
         let q = model.layout.split(y)[0];
         let scaled = q.iter().zip(column_scales(model)).map(|(q, scale)| q.abs() / scale);
         let far = scaled.fold(1.0, f64::max);
-        Self { t, y, size: size(model), far }
+        Self { t, y, size: size(model), far, phases: Rc::default() }
     }
 
     /// A state with the same coordinates.
     pub fn with<'o>(&self, y: &'o mut [f64]) -> StateAt<'o> {
-        StateAt { y, ..*self }
+        StateAt { y, phases: Rc::clone(&self.phases), ..*self }
+    }
+
+    /// The state with the phases that other states of the model have tried.
+    pub fn sharing(self, phases: &Rc<TriedPhases>) -> Self {
+        Self { phases: Rc::clone(phases), ..self }
+    }
+
+    /// A model in modes.
+    pub fn phase(&self, model: &Model, modes: &[ForceMode]) -> Rc<TriedPhase> {
+        self.phases.of(model, modes)
     }
 
     /// The size of the mechanism for a gap that is a length, 1 rad for one that is an angle.
@@ -72,19 +87,25 @@ impl<'y> StateAt<'y> {
     /// [`Failure`] where the equations have no solution.
     pub fn solved(&self, phase: &Model) -> Result<Workspace, Box<Failure>> {
         let (t, state) = (self.t, self.state(phase));
-        let mut workspace = workspace_at((phase, &ModelCache::default()), t, state);
+        let tried = self.phases.with_model(phase);
+        let (own, alone) = (tried.as_ref().map(|tried| &tried.cache), ModelCache::default());
+        let mut workspace = workspace_at((phase, own.unwrap_or(&alone)), t, state);
         let solved = workspace.accelerate(phase, t, state, Gains::default());
         solved.map_err(|breakdown| Failure::at_state(phase, t, state[0], breakdown))?;
         Ok(workspace)
     }
 
-    /// A speed that is large compared with rounding errors of speeds: the largest rate of the state, or the speed
-    /// that the accelerations produce within the size of the mechanism.
-    pub fn speed_scale(&self, model: &Model, modes: &[ForceMode]) -> f64 {
-        let fastest = largest(self.state(model)[1]);
-        let workspace = self.solved(&model.in_modes(modes));
-        let accelerations = workspace.map_or(0.0, |workspace| largest(workspace.a()));
-        fastest.max((self.size * accelerations).sqrt())
+    /// A rate in 1/s that is large compared with rounding errors of rates: the largest one of the state, or that which
+    /// the accelerations produce within the size of the mechanism or 1 rad.
+    pub fn rate_scale(&self, phase: &Model) -> f64 {
+        let solved = self.solved(phase);
+        let accelerations = solved.map_or(0.0, |solved| scaled(phase, solved.a()));
+        self.fastest(phase).max(accelerations.sqrt())
+    }
+
+    /// The largest rate of the state, 1/s.
+    pub fn fastest(&self, model: &Model) -> f64 {
+        scaled(model, self.state(model)[1])
     }
 
     /// The functions whose zeros may change the modes of forces: gaps or speeds.
@@ -271,6 +292,12 @@ pub fn mode_of(modes: &[ForceMode], force: usize) -> Mode {
 /// Whether a force has modes.
 pub fn has_mode(model: &Model, force: usize) -> bool {
     model.forces[force].element.behaviour().is_some_and(|of| of.has_modes())
+}
+
+/// The largest magnitude of rates or accelerations, relative to the size of the mechanism or 1 rad.
+pub fn scaled(model: &Model, rates: &[f64]) -> f64 {
+    let own = rates.iter().zip(column_scales(model)).map(|(rate, scale)| rate.abs() / scale);
+    own.fold(0.0, f64::max)
 }
 
 /// The largest magnitude.

@@ -74,9 +74,11 @@ pub(super) fn examine(
     let follows = |of: &ForceMode| matches!(of.mode, Mode::Follows { .. });
     // where sliding begins, its direction belongs to the motion
     let slides = |k: &usize| rough(k).then_some(rub(k)).flatten();
-    let speeds = place.thresholds(model, &closed.iter().filter_map(slides).list());
-    let still = STILL * place.speed_scale(model, modes);
-    let begins = speeds.iter().any(|speed| speed.abs() <= still);
+    let rubbing: Vec<usize> = closed.iter().filter_map(slides).list();
+    let speeds = place.thresholds(model, &rubbing);
+    let still = STILL * place.rate_scale(&place.phase(model, modes));
+    let begins =
+        rubbing.iter().zip(&speeds).any(|(k, speed)| speed.abs() <= still * place.unit(model, *k));
     if closed.len() > MOST
         || begins
         || others.iter().any(follows)
