@@ -38,6 +38,8 @@ pub(super) struct AskedRun<'a> {
     pub starts: (Vec<Vec<Slope>>, Vec<f64>),
     /// The magnitudes of the variables of all blocks.
     pub sizes: Vec<f64>,
+    /// The number of variables. The place after them has the error of the run.
+    pub count: usize,
     pub equations: PhaseEquations<'a>,
 }
 
@@ -187,8 +189,8 @@ impl<'a> MotionSlopes<'a> {
         self.step = self.next;
         match self.step + 1 < self.steps.t.len() {
             _ if self.ends_phase(self.step) => {}
-            true => y[..n_y].copy_from_slice(&self.steps.y[self.step * n_y..][..n_y]),
-            false => y[..n_y].copy_from_slice(&self.last),
+            true => take(&self.steps.y[self.step * n_y..][..n_y], self.asked.count, &mut y),
+            false => take(&self.last, self.asked.count, &mut y),
         }
         self.project(end, &mut y)?;
         self.y = y;
@@ -312,7 +314,7 @@ impl<'a> MotionSlopes<'a> {
             self.ode = Self::equations_of(asked, self.phase)?;
         }
         if let Some(known) = steps.y.get(self.step * n_y..(self.step + 1) * n_y) {
-            self.y[..n_y].copy_from_slice(known);
+            take(known, asked.count, &mut self.y);
         }
         self.hold_pieces();
         self.ode.anchor((t, late), &self.y);
@@ -322,6 +324,20 @@ impl<'a> MotionSlopes<'a> {
     fn hold_pieces(&mut self) {
         let pieces = self.asked.run.held.get(self.held).map(|held| &held.pieces[..]);
         self.ode.workspace.motions.pieces = pieces.unwrap_or_default().to_vec();
+    }
+
+    /// The number of variables.
+    pub fn count(&self) -> usize {
+        self.asked.count
+    }
+
+    /// The largest error of a coordinate of the run in a state with derivatives, relative to the size of the mechanism or
+    /// to a radian.
+    pub fn error(&self, states: &[Vec<Slope>]) -> f64 {
+        let (b, place) = (self.asked.count / ABREAST, self.asked.count % ABREAST);
+        let scales = column_scales(&self.ode.model);
+        let errors = states[b].iter().zip(&scales).map(|(x, scale)| x.slope[place].abs() / scale);
+        errors.fold(0.0, f64::max)
     }
 
     /// The magnitudes of the variables of all blocks.
@@ -354,6 +370,16 @@ impl<'a> MotionSlopes<'a> {
     /// The equations with derivatives.
     pub fn ode(&mut self) -> &mut SlopeOde {
         &mut self.ode
+    }
+}
+
+/// Takes a state of the run. Its distance from the more accurate steps of the derivatives is an error, which the motion
+/// carries on as it does the derivatives by a variable, at this place.
+fn take(known: &[f64], place: usize, y: &mut [f64]) {
+    let n_y = known.len();
+    for (k, known) in known.iter().enumerate() {
+        y[n_y * (1 + place) + k] += known - y[k];
+        y[k] = *known;
     }
 }
 

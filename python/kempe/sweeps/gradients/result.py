@@ -58,7 +58,7 @@ class Gradient:
         hessian: the second derivatives, (n_measures, n_variables, n_variables), with ``second``;
             None without. NaN where there is none.
         units: SI units of measures and variables; empty for an unknown one.
-        remarks: why a derivative does not exist, or is only one-sided, by measure and variable.
+        remarks: why a derivative does not exist, or is inaccurate, by measure and variable.
     """
 
     def __init__(
