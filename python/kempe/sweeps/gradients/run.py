@@ -92,7 +92,8 @@ def in_analyses(plan: Plan, row: Floats) -> dict[int, str]:
     """
     fields = _fields(plan.case)
     try:  # all at once, which is cheaper
-        if _fields(_changed(plan, row, range(len(row)))) == fields:
+        changed = _changed(plan, row, range(len(row)))
+        if not fields or _fields(changed) == fields:
             return {}
     except ModelError:
         pass
