@@ -5,6 +5,7 @@
 
 use super::impacts;
 use super::ode::SlopeOde;
+use super::run_ends::{last_state, scales};
 use super::triggers::Trigger;
 use crate::analyses::assemble::StartSlopes;
 use crate::analyses::dynamics::{
@@ -15,7 +16,7 @@ use crate::elements::Behaviour;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::integrate::{Atol, BoxedStepper, Dop853, ExplicitMethod, StepControl};
 use crate::math::Listed;
-use crate::model::{column_scales, usual_energy, ForceMode, Model, WORKS};
+use crate::model::{column_scales, ForceMode, Model};
 use crate::solve::Breakdown;
 use std::sync::Arc;
 
@@ -389,34 +390,6 @@ fn impossible(phase: usize) -> String {
 
 fn singular(t: f64) -> String {
     format!("it has no bound: the position at t = {t:.6} s is singular, or the forces there have no derivative")
-}
-
-/// The scale of each component of (state, derivatives of the state by the first variable, and so on). States of first
-/// order have the scale of their largest value in the run.
-fn scales(model: &Model, run: &Run, sizes: &[f64]) -> Vec<f64> {
-    let (of_q, n_z) = (column_scales(model), model.layout.n_z);
-    let most = |k: usize| {
-        let values = run.trajectory.z.iter().skip(k).step_by(n_z);
-        values.fold(0.0_f64, |most, z| most.max(z.abs()))
-    };
-    let states = (0..n_z).map(most).map(|size| if size > 0.0 { size } else { 1.0 }).list();
-    let works = vec![usual_energy(model); WORKS];
-    let own = [&of_q[..], &of_q, &states, &works].concat();
-    let slopes = sizes.iter().flat_map(|size| own.iter().map(move |scale| scale / size));
-    own.iter().copied().chain(slopes).list()
-}
-
-/// The last state of a run, with its works.
-fn last_state(model: &Model, run: &Run) -> Vec<f64> {
-    let (of, layout) = (&run.trajectory, &model.layout);
-    let row = |table: &[f64], width: usize| table[table.len() - width..].to_vec();
-    let parts = [
-        row(&of.q, layout.n_q),
-        row(&of.v, layout.n_q),
-        row(&of.z, layout.n_z),
-        row(&of.works, layout.n_works),
-    ];
-    parts.concat()
 }
 
 /// A start as one row: q, v and z.
