@@ -35,7 +35,7 @@ class Slope:
         value: the derivative; NaN if there is none.
         unit: its unit.
         relative: relative change of the measure divided by that of the variable.
-        remark: why there is no derivative, or only a one-sided one; often empty.
+        remark: why there is no derivative, or why it is inaccurate; often empty.
     """
 
     measure: str
