@@ -182,8 +182,8 @@ class Plan:
         self,
     ) -> tuple[_core.Model, str, str, str, list[str], list[tuple[int | None, str]]]:
         """The arguments of the core that all rows share."""
-        start = self.case.with_start({name: 0.0 for name in self.names if "." in name})
-        tree = start._start.tree()
+        of_start = {name: 0.0 for name in self.names if "." in name}
+        tree = (self.case.with_start(of_start) if of_start else self.case)._start.tree()
         measures = list(dict.fromkeys(one.expression for one in self.wanted if one.statistic))
         wanted: list[tuple[int | None, str]] = [
             (measures.index(one.expression), one.statistic) if one.statistic else (None, one.text)
@@ -309,5 +309,7 @@ def without_later(case: Case, analysis: str) -> Case:
     from kempe.case import Case
 
     names = list(case.analyses)
+    if analysis == names[-1]:
+        return case
     kept: Sequence[str] = names[: names.index(analysis) + 1]
     return Case(case.model, case._start, {name: case.analyses[name] for name in kept})

@@ -244,7 +244,7 @@ fn implicit_in(
     let found = solve_any_rank(&mut matrix, x.len(), &mut right, DEPENDENT);
     // a coordinate that is in no equation stays where it is
     if !zero && found.coupled.iter().any(|column| *column < needed) {
-        return Err("the equations do not determine it; prescribe more of the start".to_string());
+        return Err("the equations do not determine it: the start is a singular position, or more of it must be prescribed".to_string());
     }
     if !found.consistent.iter().all(|agree| *agree) {
         return Err("constraints that depend on each other would no longer agree".to_string());

@@ -74,7 +74,7 @@ impl ReadyVariant<'_> {
         let fixed = || [q, v, z].each(|x| constants(x));
         let blocks = match options.hold.is_empty() && !self.ready.after {
             true => names.map(|names| (names, fixed())).list(),
-            false => names.zip(self.starts()?.in_time()?).list(),
+            false => names.zip(self.starts()?.in_time(self.count())?).list(),
         };
         let model = self.sweep.subject(self.ready).released(start);
         Ok(Rests { variant: *self, options, record, model, blocks })

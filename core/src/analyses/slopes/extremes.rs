@@ -93,9 +93,10 @@ impl Stationary {
             true => (rows.final_slopes(k)?, rows.end.clone()),
             false => (rows.at(t)?.slopes[k].clone(), vec![0.0; rows.variables]),
         };
+        let end = if is_last { "end" } else { "start" };
         let of_time = match is_still && !rows.is_constant(k) {
             true => Err(format!(
-                "the value is stationary at the end of the run, t = {t:.6} s, so that this time can move to one side only"
+                "the value is stationary at the {end} of the run, t = {t:.6} s, so that this time can move to one side only"
             )),
             false => Ok(late),
         };

@@ -15,7 +15,7 @@ use crate::analyses::sweep::{
 };
 use crate::analyses::AnyAnalysis;
 use crate::equations::sensitivity::{Slope, ABREAST};
-use crate::math::{Listed, Ordered};
+use crate::math::{Listed, Ordered, Real};
 use crate::model::{Model, Value};
 
 /// Why a number has no derivative by a variable.
@@ -150,7 +150,13 @@ impl<'a> ReadyVariant<'a> {
         };
         let found = statistics.iter().enumerate().map(slopes).zip(&values);
         let found = found.map(|(found, value)| by_variable(*value, found, self.count())).list();
-        Ok(Gradient::of(values, found))
+        let mut found = Gradient::of(values, found);
+        let doubt = |plan: &SlopePlan| {
+            let last = plan.times(times).into_iter().reduce(f64::max)?;
+            rows.as_ref().ok()?.doubt(last)
+        };
+        found.add_doubts(&plans.iter().map(doubt).list());
+        Ok(found)
     }
 
     /// Measures with their derivatives at some times of a run and at its end.
@@ -187,11 +193,21 @@ impl<'a> ReadyVariant<'a> {
             return Ok(StateSlopes::Driven(self.blocks(model)?, states));
         };
         refusal(model, run, false).map_or(Ok(()), Err)?;
-        let Starts { states, late } = self.starts()?;
-        let late = if options.t_start.is_some() { vec![0.0; late.len()] } else { late };
-        let starts: Vec<Vec<Slope>> = states.into_iter().map(joined).list();
-        let mut sizes = self.sizes();
-        sizes.resize(ABREAST * starts.len(), 1.0);
+        let Starts { states, mut late } = self.starts()?;
+        if options.t_start.is_some() {
+            late.fill(0.0);
+        }
+        let mut starts: Vec<Vec<Slope>> = states.into_iter().map(joined).list();
+        let (mut names, mut sizes) = (self.names(), self.sizes());
+        let count = sizes.len();
+        // the place after the variables is that of the error of the run
+        let blocks = count / ABREAST + 1;
+        names.resize(blocks, Vec::new());
+        if starts.len() < blocks {
+            starts.push(starts[0].iter().map(|x| Slope::constant(x.value)).list());
+        }
+        sizes.resize(ABREAST * blocks, 1.0);
+        late.resize(ABREAST * blocks, 0.0);
         // the parameters of the analysis have the last values in its table
         let written = match self.sweep.analyses.last().and_then(|entry| entry.get("parameters")) {
             Some(Value::Table(written)) => &written[..],
@@ -202,10 +218,10 @@ impl<'a> ReadyVariant<'a> {
                 let replaced = replacements(model, names, written, &setting.parameters);
                 equations(phase, names, &replaced.ok_or_else(unread)?)
             };
-            self.names().iter().map(of).collect()
+            names.iter().map(of).collect()
         });
         let starts = (starts, late);
-        let asked = AskedRun { model, run, options, starts, sizes, equations };
+        let asked = AskedRun { model, run, options, starts, sizes, count, equations };
         Ok(StateSlopes::Dynamics(Box::new(MotionSlopes::new(asked)?)))
     }
 }
@@ -239,6 +255,19 @@ impl Gradient {
             }
         }
         Self { values, jacobian, remarks }
+    }
+}
+
+impl Gradient {
+    /// Adds remarks on inaccurate derivatives of each number.
+    fn add_doubts(&mut self, doubts: &[Option<String>]) {
+        let count = self.jacobian.len() / self.values.len().max(1);
+        for (place, slope) in self.jacobian.iter().enumerate() {
+            let (number, variable) = (place / count, place % count);
+            if let Some(text) = doubts[number].as_ref().filter(|_| slope.abs() > 0.0) {
+                self.remarks.push(Remark { number, variable, text: text.clone() });
+            }
+        }
     }
 }
 

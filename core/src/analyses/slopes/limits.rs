@@ -88,7 +88,7 @@ impl ReadyVariant<'_> {
         let measure = Measure::read(&model, &variable.name);
         let measure = measure.map_err(|_| "kempe has no derivatives of this number")?;
         let mut slopes = Vec::new();
-        let starts = self.starts()?.in_time()?;
+        let starts = self.starts()?.in_time(self.count())?;
         let blocks = self.blocks(&model)?.into_iter().zip(starts);
         for (mut over, [q, v, z]) in blocks {
             over.place(&q, &v, &[]);

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `variables` | parameters and start values as numbers with derivatives |
 //! | `ode` | the equations of motion together with their derivatives |
-//! | `run_ends` | the end of a run and its states |
+//! | `run_ends` | the end of a run, its states and their scales |
 //! | `starts` | the derivatives of a start |
 //! | `triggers` | the functions whose zeros change a motion |
 //! | `impacts` | the derivatives of impacts |

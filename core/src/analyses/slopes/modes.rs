@@ -87,7 +87,7 @@ impl ReadyVariant<'_> {
         let lost = || "the equations of motion have no unique solution there".to_string();
         let mut workspace = Workspace::new(model);
         workspace.react(model, state.t, [&state.q, &state.v, &[]]).map_err(|_| lost())?;
-        let blocks = self.blocks(model)?.into_iter().zip(self.starts()?.in_time()?);
+        let blocks = self.blocks(model)?.into_iter().zip(self.starts()?.in_time(self.count())?);
         let sizes = self.sizes();
         let moved = blocks.zip(sizes.chunks(ABREAST)).map(|((mut over, [q, v, _]), sizes)| {
             let t = Slope::constant(state.t);

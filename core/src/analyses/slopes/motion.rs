@@ -5,6 +5,7 @@
 
 use super::impacts;
 use super::ode::SlopeOde;
+use super::run_ends::{last_state, scales};
 use super::triggers::Trigger;
 use crate::analyses::assemble::StartSlopes;
 use crate::analyses::dynamics::{
@@ -15,7 +16,7 @@ use crate::elements::Behaviour;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::integrate::{Atol, BoxedStepper, Dop853, ExplicitMethod, StepControl};
 use crate::math::Listed;
-use crate::model::{column_scales, usual_energy, ForceMode, Model, WORKS};
+use crate::model::{column_scales, ForceMode, Model};
 use crate::solve::Breakdown;
 use std::sync::Arc;
 
@@ -38,6 +39,8 @@ pub(super) struct AskedRun<'a> {
     pub starts: (Vec<Vec<Slope>>, Vec<f64>),
     /// The magnitudes of the variables of all blocks.
     pub sizes: Vec<f64>,
+    /// The number of variables. The place after them has the error of the run.
+    pub count: usize,
     pub equations: PhaseEquations<'a>,
 }
 
@@ -187,8 +190,8 @@ impl<'a> MotionSlopes<'a> {
         self.step = self.next;
         match self.step + 1 < self.steps.t.len() {
             _ if self.ends_phase(self.step) => {}
-            true => y[..n_y].copy_from_slice(&self.steps.y[self.step * n_y..][..n_y]),
-            false => y[..n_y].copy_from_slice(&self.last),
+            true => take(&self.steps.y[self.step * n_y..][..n_y], self.asked.count, &mut y),
+            false => take(&self.last, self.asked.count, &mut y),
         }
         self.project(end, &mut y)?;
         self.y = y;
@@ -312,7 +315,7 @@ impl<'a> MotionSlopes<'a> {
             self.ode = Self::equations_of(asked, self.phase)?;
         }
         if let Some(known) = steps.y.get(self.step * n_y..(self.step + 1) * n_y) {
-            self.y[..n_y].copy_from_slice(known);
+            take(known, asked.count, &mut self.y);
         }
         self.hold_pieces();
         self.ode.anchor((t, late), &self.y);
@@ -322,6 +325,20 @@ impl<'a> MotionSlopes<'a> {
     fn hold_pieces(&mut self) {
         let pieces = self.asked.run.held.get(self.held).map(|held| &held.pieces[..]);
         self.ode.workspace.motions.pieces = pieces.unwrap_or_default().to_vec();
+    }
+
+    /// The number of variables.
+    pub fn count(&self) -> usize {
+        self.asked.count
+    }
+
+    /// The largest error of a coordinate of the run in a state with derivatives, relative to the size of the mechanism or
+    /// to a radian.
+    pub fn error(&self, states: &[Vec<Slope>]) -> f64 {
+        let (b, place) = (self.asked.count / ABREAST, self.asked.count % ABREAST);
+        let scales = column_scales(&self.ode.model);
+        let errors = states[b].iter().zip(&scales).map(|(x, scale)| x.slope[place].abs() / scale);
+        errors.fold(0.0, f64::max)
     }
 
     /// The magnitudes of the variables of all blocks.
@@ -357,40 +374,22 @@ impl<'a> MotionSlopes<'a> {
     }
 }
 
+/// Takes a state of the run. Its distance from the more accurate steps of the derivatives is an error, which the motion
+/// carries on as it does the derivatives by a variable, at this place.
+fn take(known: &[f64], place: usize, y: &mut [f64]) {
+    let n_y = known.len();
+    for (k, known) in known.iter().enumerate() {
+        y[n_y * (1 + place) + k] += known - y[k];
+        y[k] = *known;
+    }
+}
+
 fn impossible(phase: usize) -> String {
     format!("phase {phase} of the run has no model")
 }
 
 fn singular(t: f64) -> String {
     format!("it has no bound: the position at t = {t:.6} s is singular, or the forces there have no derivative")
-}
-
-/// The scale of each component of (state, derivatives of the state by the first variable, and so on). States of first
-/// order have the scale of their largest value in the run.
-fn scales(model: &Model, run: &Run, sizes: &[f64]) -> Vec<f64> {
-    let (of_q, n_z) = (column_scales(model), model.layout.n_z);
-    let most = |k: usize| {
-        let values = run.trajectory.z.iter().skip(k).step_by(n_z);
-        values.fold(0.0_f64, |most, z| most.max(z.abs()))
-    };
-    let states = (0..n_z).map(most).map(|size| if size > 0.0 { size } else { 1.0 }).list();
-    let works = vec![usual_energy(model); WORKS];
-    let own = [&of_q[..], &of_q, &states, &works].concat();
-    let slopes = sizes.iter().flat_map(|size| own.iter().map(move |scale| scale / size));
-    own.iter().copied().chain(slopes).list()
-}
-
-/// The last state of a run, with its works.
-fn last_state(model: &Model, run: &Run) -> Vec<f64> {
-    let (of, layout) = (&run.trajectory, &model.layout);
-    let row = |table: &[f64], width: usize| table[table.len() - width..].to_vec();
-    let parts = [
-        row(&of.q, layout.n_q),
-        row(&of.v, layout.n_q),
-        row(&of.z, layout.n_z),
-        row(&of.works, layout.n_works),
-    ];
-    parts.concat()
 }
 
 /// A start as one row: q, v and z.

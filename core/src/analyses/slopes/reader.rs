@@ -72,8 +72,10 @@ pub(super) struct SlopeRow {
     pub slopes: Vec<Vec<f64>>,
     /// The value, and its derivative by the time, for each measure.
     pub values: Vec<[f64; 2]>,
-    /// The number of variables of all blocks.
-    variables: usize,
+    /// The number of variables of all blocks, and of those that are asked.
+    variables: [usize; 2],
+    /// The largest error of a coordinate of the run, relative to its scale.
+    pub error: f64,
 }
 
 impl<'a> Reader<'a> {
@@ -128,7 +130,7 @@ impl<'a> Reader<'a> {
             let row = self.instant(self.dissipation.start())?;
             let late = match &self.course {
                 StateSlopes::Dynamics(motion) => motion.late_start().to_vec(),
-                StateSlopes::Driven(..) => vec![0.0; row.variables],
+                StateSlopes::Driven(..) => vec![0.0; row.variables[0]],
             };
             self.dissipation.begin(&row.values, &late);
             return Ok(());
@@ -162,7 +164,7 @@ impl<'a> Reader<'a> {
     pub fn end(&mut self, t: f64) -> Result<(Vec<Vec<Slope>>, Vec<f64>), String> {
         let row = self.at(t)?;
         let late = match self.dissipation.first == 0 {
-            true => vec![0.0; row.variables],
+            true => vec![0.0; row.variables[0]],
             false => {
                 let name = "the condition that ends the motion";
                 row.late(name, 0, (0.0, 0.0))?.ok_or_else(|| touches(name, t))?
@@ -202,7 +204,7 @@ impl<'a> Reader<'a> {
                 let others =
                     others.filter(|last| last.names.iter().all(|name| !names.contains(name)));
                 times.extend(others.map(|last| (last.name(), last.late.clone())));
-                agreed(t, &times, motion.sizes())?
+                agreed(t, &times, &motion.sizes()[..motion.count()])?
             }
         };
         let StateSlopes::Dynamics(motion) = &mut self.course else { return Ok(()) };
@@ -276,7 +278,12 @@ impl<'a> Reader<'a> {
             slopes.iter_mut().zip(all).for_each(|(slopes, found)| slopes.extend(found.slope));
         }
         let values = self.over_time(t, &values, (solves, triggers))?;
-        Ok(SlopeRow { t, slopes, values, variables: ABREAST * states.len() })
+        let all = ABREAST * states.len();
+        let (count, error) = match &self.course {
+            StateSlopes::Dynamics(motion) => (motion.count(), motion.error(&states)),
+            StateSlopes::Driven(..) => (all, 0.0),
+        };
+        Ok(SlopeRow { t, slopes, values, variables: [all, count], error })
     }
 
     /// The measures and their derivatives by the time.
@@ -341,7 +348,8 @@ impl SlopeRow {
         if (rate * since).abs() >= GRAZES * before.abs() && rate != 0.0 {
             return Ok(Some(self.slopes[k].iter().map(|slope| -slope / rate).list()));
         }
-        match rate == 0.0 && self.slopes[k].iter().all(|slope| *slope == 0.0) {
+        let mut slopes = self.slopes[k].iter().take(self.variables[1]);
+        match rate == 0.0 && slopes.all(|slope| *slope == 0.0) {
             true => Ok(None),
             false => Err(touches(name, self.t)),
         }

@@ -1,10 +1,11 @@
-//! The end of a run and its states, as gradients and starts read them.
+//! The end of a run, its states and their scales, as gradients and starts read them.
 
 use crate::analyses::dynamics::{Run, States};
 use crate::analyses::measures::Measure;
 use crate::analyses::sweep::PreparedModel;
 use crate::analyses::AnyAnalysis;
-use crate::model::Model;
+use crate::math::Listed;
+use crate::model::{column_scales, usual_energy, Model, WORKS};
 
 /// A state within a driven run.
 pub(super) fn state_at(
@@ -74,4 +75,32 @@ pub(super) fn refusal(model: &Model, run: &Run, is_driven: bool) -> Option<Strin
 /// The ends of the steps of a run; its outputs if they are not known.
 pub(super) fn steps(run: &Run) -> &[f64] {
     run.dense.as_ref().map_or(&run.trajectory.t, |dense| &dense.t)
+}
+
+/// The scale of each component of (state, derivatives of the state by the first variable, and so on). States of first
+/// order have the scale of their largest value in the run.
+pub(super) fn scales(model: &Model, run: &Run, sizes: &[f64]) -> Vec<f64> {
+    let (of_q, n_z) = (column_scales(model), model.layout.n_z);
+    let most = |k: usize| {
+        let values = run.trajectory.z.iter().skip(k).step_by(n_z);
+        values.fold(0.0_f64, |most, z| most.max(z.abs()))
+    };
+    let states = (0..n_z).map(most).map(|size| if size > 0.0 { size } else { 1.0 }).list();
+    let works = vec![usual_energy(model); WORKS];
+    let own = [&of_q[..], &of_q, &states, &works].concat();
+    let slopes = sizes.iter().flat_map(|size| own.iter().map(move |scale| scale / size));
+    own.iter().copied().chain(slopes).list()
+}
+
+/// The last state of a run, with its works.
+pub(super) fn last_state(model: &Model, run: &Run) -> Vec<f64> {
+    let (of, layout) = (&run.trajectory, &model.layout);
+    let row = |table: &[f64], width: usize| table[table.len() - width..].to_vec();
+    let parts = [
+        row(&of.q, layout.n_q),
+        row(&of.v, layout.n_q),
+        row(&of.z, layout.n_z),
+        row(&of.works, layout.n_works),
+    ];
+    parts.concat()
 }

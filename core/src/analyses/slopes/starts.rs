@@ -21,9 +21,9 @@ pub(super) struct Starts {
 }
 
 impl Starts {
-    /// The states, if the time of the start does not move.
-    pub fn in_time(self) -> Result<Vec<StartSlopes>, String> {
-        match self.late.iter().all(|late| *late == 0.0) {
+    /// The states, if the time of the start does not move with one of `count` variables.
+    pub fn in_time(self, count: usize) -> Result<Vec<StartSlopes>, String> {
+        match self.late.iter().take(count).all(|late| *late == 0.0) {
             true => Ok(self.states),
             false => Err("the time of its start moves".to_string()),
         }

@@ -10,6 +10,11 @@ const BESIDE: f64 = 1.0 / 32.0;
 /// Accuracy of the time of an extreme value, in steps of the run.
 const SEARCHED: f64 = 1e-4;
 
+/// Error of a coordinate, relative to the size of the mechanism or to a radian, above which derivatives are doubtful, and
+/// from which they do not belong to the motion. Where errors grow, those of derivatives are about ten times as large.
+pub(super) const DOUBTFUL: f64 = 1e-4;
+const LOST: f64 = 1.0;
+
 /// The derivatives of a number by each variable, or the reason for which there are none.
 pub(super) type Found = Result<Vec<f64>, String>;
 
@@ -228,6 +233,20 @@ impl Corner {
     }
 }
 
+impl SlopeRow {
+    /// The row, if the error of the run has not grown to the size of the mechanism.
+    fn known(self) -> Result<Self, String> {
+        match self.error >= LOST {
+            false => Ok(self),
+            true => Err(format!(
+                "the motion is not known at t = {:.6} s: small errors have grown to the size of the mechanism, as in chaos; \
+                 a shorter run or a smaller rtol helps",
+                self.t
+            )),
+        }
+    }
+}
+
 impl SlopeRows {
     /// Reads all measures at some times, the last of which is the end of the run.
     ///
@@ -242,9 +261,9 @@ impl SlopeRows {
         t.order_by(f64::total_cmp);
         t.dedup();
         let last = t.iter().position(|t| Some(*t) == end_of_run).unwrap_or(0);
-        let (mut rows, mut failed) = (Vec::with_capacity(t.len()), String::new());
+        let (mut rows, mut failed) = (Vec::<SlopeRow>::with_capacity(t.len()), String::new());
         for t in t {
-            match reader.at(t) {
+            match reader.at(t).and_then(SlopeRow::known) {
                 Ok(row) => rows.push(row),
                 Err(reason) if rows.is_empty() => return Err(reason),
                 Err(reason) => {
@@ -296,6 +315,17 @@ impl SlopeRows {
     pub(super) fn corner(&self, t: f64) -> Option<&Corner> {
         let place = self.corners.partition_point(|corner| corner.t() < t);
         self.corners.get(place).filter(|corner| corner.t() == t)
+    }
+
+    /// Why derivatives of a number that is read up to a time are inaccurate, if they are.
+    pub(super) fn doubt(&self, until: f64) -> Option<String> {
+        let rows = self.rows.iter().take_while(|row| row.t <= until);
+        let error = rows.fold(0.0_f64, |most, row| most.max(row.error));
+        (error > DOUBTFUL).then(|| {
+            format!(
+                "the motion is only known to {error:.1e} of the size of the mechanism or of a radian, and the derivative less well; a smaller rtol helps"
+            )
+        })
     }
 
     /// The row at the end of the run.

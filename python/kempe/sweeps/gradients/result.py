@@ -35,7 +35,7 @@ class Slope:
         value: the derivative; NaN if there is none.
         unit: its unit.
         relative: relative change of the measure divided by that of the variable.
-        remark: why there is no derivative, or only a one-sided one; often empty.
+        remark: why there is no derivative, or why it is inaccurate; often empty.
     """
 
     measure: str
@@ -58,7 +58,7 @@ class Gradient:
         hessian: the second derivatives, (n_measures, n_variables, n_variables), with ``second``;
             None without. NaN where there is none.
         units: SI units of measures and variables; empty for an unknown one.
-        remarks: why a derivative does not exist, or is only one-sided, by measure and variable.
+        remarks: why a derivative does not exist, or is inaccurate, by measure and variable.
     """
 
     def __init__(

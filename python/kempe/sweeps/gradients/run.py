@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 _CHANGE = 1e-6
 #: The remarks on numbers that the core does not differentiate.
 _SINGLE = "kempe has no derivatives of this number yet"
+#: A name in a formula.
+_WORD = re.compile(r"[^\W\d]\w*")
 #: The time and the quantities at which formulas without these are evaluated.
 _AT, _NONE = np.zeros(1), np.zeros((1, 0))
 
@@ -89,7 +92,8 @@ def in_analyses(plan: Plan, row: Floats) -> dict[int, str]:
     """
     fields = _fields(plan.case)
     try:  # all at once, which is cheaper
-        if _fields(_changed(plan, row, range(len(row)))) == fields:
+        changed = _changed(plan, row, range(len(row)))
+        if not fields or _fields(changed) == fields:
             return {}
     except ModelError:
         pass
@@ -151,8 +155,12 @@ def _left(plan: Plan, one: Wanted) -> str:
 
 
 def _fields(case: Case) -> dict[str, float]:
-    """The values of the formulas in the analyses, by their places, but those of parameters."""
-    core, found = case.model.compile().core, dict[str, float]()
+    """The values of the formulas of parameters in the analyses, by their places.
+
+    What an analysis gives for parameters themselves is left out.
+    """
+    model, found = case.model.compile(), dict[str, float]()
+    core, parameters = model.core, set(model.parameters)
     ahead: list[tuple[str, Any]] = [
         (name, {key: entry for key, entry in of.items() if key != "parameters"})
         for name, of in case.analyses.items()
@@ -164,6 +172,8 @@ def _fields(case: Case) -> dict[str, float]:
         elif isinstance(of, list | tuple):
             ahead += [(f"{place}[{k}]", entry) for k, entry in enumerate(of)]
         elif isinstance(of, str) and not place.endswith(".over"):
+            if parameters.isdisjoint(_WORD.findall(of)):
+                continue
             with suppress(KempeError):  # a name, or a condition
                 if not _core.measure(core, of)[0]:
                     (found[place],) = _core.measure_values(core, of, _AT, _NONE)
