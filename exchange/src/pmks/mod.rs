@@ -5,7 +5,7 @@
 //! | joint on ground or of several links | `revolute` between the first of them, or ground, and each other one |
 //! | joint of one link | point of that link |
 //! | link; welded links | a body with mass, inertia and centre; a link with two joints on ground is part of ground |
-//! | slide on ground or in a slot of a link | a block with `translational` on the guide, and `revolute` or `weld` to its links |
+//! | slide on ground or in a slot | block with `translational` on the guide, and `revolute` or `weld` to its links |
 //! | input | `coordinate_driver`; a negative speed is clockwise |
 //! | force | `force`, in the global frame or that of its link |
 //! | inches, centimetres, metres | m, with lb, g, kg for masses |

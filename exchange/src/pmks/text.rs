@@ -147,14 +147,14 @@ impl Reader<'_> {
         self.unread.lost(self.line, what);
     }
 
-    /// The flags of a record, and its identifier.
-    fn head<'a>(&mut self, field: &'a str) -> (impl Fn(u32) -> bool, &'a str) {
+    /// The flags of a record, of which there are `count`, and its identifier.
+    fn head<'a>(&mut self, field: &'a str, count: u32) -> (impl Fn(u32) -> bool, &'a str) {
         let (first, id) = head(field, 1);
-        let bits = integer(first).unwrap_or_else(|| {
+        let bits = integer(first).filter(|bits| *bits < f64::from(1 << count));
+        if bits.is_none() {
             self.lost(format!("{}: its flags are not known", short(field)));
-            0.0
-        });
-        (bits_of(bits), id)
+        }
+        (bits_of(bits.unwrap_or_default()), id)
     }
 
     /// Value `k` of the record `key`, a kind and an identifier.
@@ -174,7 +174,7 @@ impl Reader<'_> {
 
     fn joint<'a>(&mut self, record: &'a str) -> Joint<'a> {
         let fields: Vec<&str> = record.split(',').collect();
-        let (is, id) = self.head(fields[0]);
+        let (is, id) = self.head(fields[0], 6);
         let key = format!("J{id}");
         let [x, y, angle] = [0, 1, 2].map(|k| self.number(&key, k, fields.get(k + 2)));
         // a value that is not written is zero
@@ -245,7 +245,7 @@ impl Reader<'_> {
 
     fn force<'a>(&mut self, record: &'a str) -> Option<Force<'a>> {
         let fields: Vec<&str> = record.split(',').collect();
-        let (is, id) = self.head(fields[0]);
+        let (is, id) = self.head(fields[0], 2);
         let name = fields.get(2).copied().filter(|name| !name.is_empty()).unwrap_or(id);
         let key = format!("F{id}");
         let [x, y, to_x, to_y, size] =
@@ -256,12 +256,12 @@ impl Reader<'_> {
             self.lost(format!("force {}: it has no direction, or further values", short(name)));
             return None;
         }
-        let size = if is(1) { size } else { -size } * self.units[3] / length.max(1e-3);
+        let size = if is(1) { size } else { -size } * self.units[3];
         Some(Force {
             name,
             link: fields[1],
             at: [x, y].map(|x| x * self.units[0]),
-            force: [dx * size, dy * size],
+            force: [dx, dy].map(|x| if length == 0.0 { 0.0 } else { x / length * size }),
             local: is(0),
         })
     }
@@ -320,6 +320,9 @@ pub(super) fn drawing<'a>(
     let entries = section().unwrap_or_default().get(1..).unwrap_or_default().join(".");
     let mut reader =
         Reader { exact: HashMap::new(), units, speeds: [0.0, SLIDE_SPEED], line, unread };
+    if (9..18).any(&is) {
+        reader.lost("a setting is not known".into());
+    }
     let mut left = false;
     for entry in entries.split(',').filter(|entry| !entry.is_empty()) {
         let exact = entry.strip_prefix('P').and_then(|rest| rest.rsplit_once('~'));
