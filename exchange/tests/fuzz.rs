@@ -138,8 +138,7 @@ fn stamped(body: &str) -> String {
     format!("{body}{}", &digits[length..=length])
 }
 
-/// Every record and value of a text of PMKS+ is read or named: without it, or with another one, the reader
-/// says so, or the case is another one.
+/// Every value of a text of PMKS+ is read or named: with another one, the reader names it, or the case is another one.
 #[test]
 fn no_value_of_a_mechanism_of_pmks_is_lost() {
     let (_, sample) = SAMPLES[4];

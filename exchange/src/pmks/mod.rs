@@ -115,7 +115,7 @@ impl<'a> Mechanism<'a> {
         self.forces();
         let turn = self.turns.iter().copied().reduce(f64::max);
         let entry = match turn {
-            Some(t_end) => Some(json!({ "type": "kinematics", "t_end": t_end })),
+            Some(t_end) => Some(json!({ "type": "kinematics", "t_end": t_end, "from": "start" })),
             None if self.draft.analyses.is_empty() => Some(json!({ "type": "mobility" })),
             None => None,
         };
@@ -346,7 +346,9 @@ impl<'a> Mechanism<'a> {
         if joint.input {
             let driver = self.drive(name, format!("{slide}.displacement"), joint.speed);
             let range = self.draft.name(&format!("range_{name}"));
-            self.draft.analyses.insert(range, json!({ "type": "limits", "over": driver }));
+            self.draft
+                .analyses
+                .insert(range, json!({ "type": "limits", "over": driver, "from": "start" }));
         }
     }
 

@@ -83,7 +83,7 @@ pub(super) fn payload(line: &str) -> Option<&str> {
     (drawn || other).then_some(text)
 }
 
-/// A text with its escapes `%20` and the like resolved, but for those of separators.
+/// A text with its escapes `%20` and the like resolved, except those of separators.
 pub(super) fn unescaped(text: &str) -> String {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text;
