@@ -140,8 +140,10 @@ def test_welded_links_are_one_body_with_the_forces_of_all(tmp_path: Path) -> Non
 
 def test_a_drawing_without_gravity_and_a_bar_on_ground(tmp_path: Path) -> None:
     joints, links = FOUR_BAR
-    text = drawing(joints, [*links, link("AD")], weightless=True)
-    tree = loaded(tmp_path, stamped(text)).tree()
+    load = force("F", "AD", (1, 0), (1, 1), 1)
+    case = loaded(tmp_path, stamped(drawing(joints, [*links, link("AD")], [load], weightless=True)))
+    assert case.unread == ("line 1: force F: it acts on ground",)
+    tree = case.tree()
     assert tree["gravity"] == [0, 0]
     assert set(tree["bodies"]) == {"ground", "AB", "BC", "CD"}
 

@@ -359,6 +359,11 @@ impl<'a> Mechanism<'a> {
                 self.lost("force", force.name, "it acts on no link that moves");
                 continue;
             };
+            if self.bodies[k].is_none() {
+                let what = format!("force {}: it acts on ground", short(force.name));
+                self.unread.left(self.line, what);
+                continue;
+            }
             let point = self.point(Some(k), force.name, force.at);
             let frame = if force.local { "j" } else { "global" };
             let entry =
