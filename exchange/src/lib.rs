@@ -15,6 +15,7 @@ mod draft;
 pub mod dxf;
 mod formula;
 mod linkage;
+mod pmks;
 mod space;
 mod unread;
 
@@ -34,14 +35,17 @@ pub enum Format {
     Dxf,
     /// Models of the solver of MSC Adams.
     Adm,
+    /// Mechanisms of PMKS+.
+    Pmks,
 }
 
 /// All formats with their names, which are also the endings of their files.
-pub const FORMATS: [(&str, Format); 4] = [
+pub const FORMATS: [(&str, Format); 5] = [
     ("asmt", Format::Asmt),
     ("linkage2", Format::Linkage),
     ("dxf", Format::Dxf),
     ("adm", Format::Adm),
+    ("pmks", Format::Pmks),
 ];
 
 impl Format {
@@ -62,6 +66,9 @@ impl Format {
         }
         if text.starts_with("ADAMS/View model name") {
             return Some(Self::Adm);
+        }
+        if pmks::begins(text) {
+            return Some(Self::Pmks);
         }
         let mut lines = text.lines().take(3).map(str::trim_end);
         lines.any(|line| line == "Assembly").then_some(Self::Asmt)
@@ -94,6 +101,7 @@ impl Format {
                 (8_000_000, text.split("\nTimeSeries").next().unwrap_or(text))
             }
             Self::Adm => (4_000_000, text),
+            Self::Pmks => (1_000_000, text),
             Self::Linkage | Self::Dxf => (16_000_000, text),
         }
     }
@@ -118,5 +126,6 @@ pub fn read(text: &str, format: Format) -> Read {
         Format::Linkage => linkage::read(text),
         Format::Dxf => dxf::read(text),
         Format::Adm => adm::read(text),
+        Format::Pmks => pmks::read(text),
     }
 }

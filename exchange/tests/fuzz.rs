@@ -5,11 +5,12 @@
 use kempe_exchange::{read, Format, Read, FORMATS};
 use std::time::Instant;
 
-const SAMPLES: [(Format, &str); 4] = [
+const SAMPLES: [(Format, &str); 5] = [
     (Format::Asmt, include_str!("samples/slider_crank.asmt")),
     (Format::Linkage, include_str!("samples/quick_return.linkage2")),
     (Format::Dxf, include_str!("samples/plates.dxf")),
     (Format::Adm, include_str!("samples/pendulum.adm")),
+    (Format::Pmks, include_str!("samples/slotted_lever.pmks")),
 ];
 
 /// Random numbers: a linear congruential generator with the constants of Knuth's MMIX.
@@ -127,6 +128,62 @@ fn no_unknown_line_of_an_assembly_is_lost() {
                 .iter()
                 .any(|unread| if unread.harmless { within(unread.line) } else { true });
         assert!(named, "line {} is lost: {line}", at + 1);
+    }
+}
+
+/// A text of PMKS+ without a hash, and with the right length.
+fn stamped(body: &str) -> String {
+    let digits = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+    let length = body.encode_utf16().count() % 62;
+    format!("{body}{}", &digits[length..=length])
+}
+
+/// Every value of a text of PMKS+ is read or named: with another one, the reader names it, or the case is another one.
+#[test]
+fn no_value_of_a_mechanism_of_pmks_is_lost() {
+    let (_, sample) = SAMPLES[4];
+    // without the entries: one of them replaces a value
+    let body = &sample[..sample.find(".JA,PJB").unwrap()];
+    let own = read(&stamped(body), Format::Pmks).case;
+    let records: Vec<&str> = body.split('.').collect();
+    for k in 0..records.len() {
+        let values: Vec<&str> = records[k].split(',').collect();
+        for at in 0..values.len() {
+            for other in ["", "?", "1", "Z,Z"] {
+                let mut more = values.clone();
+                more[at] = other;
+                let mut changed = records.clone();
+                let record = more.join(",");
+                changed[k] = &record;
+                let text = stamped(&changed.join("."));
+                let read = read(&text, Format::Pmks);
+                sound(&read, &text);
+                let named = read.unread.iter().any(|unread| !unread.harmless);
+                // flags of the view, scale, speed of slides, time, choices for angles, and the selected part
+                let idle = matches!((k, at, other), (0, _, "1") | (1, ..) | (2, 1, _) | (3, ..));
+                // a name may be missing; only a slide on ground has an angle, and only an input has a speed
+                let idle = idle || other.is_empty() && matches!(at, 1 | 2);
+                let idle = idle || other == "1" && (4..9).contains(&k) && matches!(at, 4 | 8);
+                // the colour of a link
+                let idle = idle || records[k].starts_with('Y') && at == 6 && other != "Z,Z";
+                let idle = idle || records[k] == "N_";
+                let same = read.case == own && values[at] != other;
+                assert!(named || idle || !same, "record {k}, value {at}: {other}\n{text}");
+            }
+        }
+    }
+}
+
+/// Damage behind right check sums.
+#[test]
+fn damaged_mechanisms_of_pmks_are_read_or_refused() {
+    let (_, sample) = SAMPLES[4];
+    let body = &sample[..sample.rfind('*').unwrap() - 1];
+    for seed in 0..count() {
+        let mut random = Random(seed as u64);
+        let damaged = random.damage(&body.replace('.', "\n").replace(',', "\t\n"));
+        let text = stamped(&damaged.replace("\t\n", ",").replace('\n', "."));
+        sound(&read(&text, Format::Pmks), &text);
     }
 }
 
