@@ -156,13 +156,14 @@ def test_sections_without_much_inertia_are_no_singular_position(size: float) -> 
     assert tips == pytest.approx([tips[0]] * 3, abs=1e-6)
 
 
-def test_a_thin_beam_between_two_pins_is_redundant() -> None:
-    m = kp.Model("pinned")
+def test_a_straight_thin_beam_between_two_pins_cannot_bend() -> None:
+    """Its pins would have to approach each other; the forces that hold it have no bound."""
+    m = kp.Model("pinned", gravity=(0, -9.81))
     m.ground.points(O=(0, 0), D=(1, 0))
     given = {"EI": 1.0, "mass_per_length": 1.0, "inertia_per_length": 1e-3}
     m.beam("rod", length=1, elements=2, **given, **THIN)
     m.revolute("A", "ground.O", "rod.A")
     m.revolute("B", "ground.D", "rod.B")
-    with pytest.raises(kp.KempeError, match=r"singular") as refused:
-        kp.dynamics(m, kp.assemble(m), t_end=0.1)
-    assert "rod.inextensible_1" in str(refused.value)
+    with pytest.warns(kp.AccuracyWarning, match=r"leave out the load along .*rod\.#1\.y"):
+        sol = kp.dynamics(m, kp.assemble(m), t_end=0.1)
+    assert np.abs(sol.q - sol.q[0]).max() < 1e-12
