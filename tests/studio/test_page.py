@@ -122,7 +122,7 @@ def test_the_page_is_one_file_and_not_larger_than_agreed() -> None:
     if not page.exists():
         pytest.skip("studio/dist/index.html is missing; build it with npm run build in studio/")
     text = page.read_bytes()
-    # most of the page has no repetitions, in which the usual strategy of zlib looks for them at a loss
+    # most of the page has no repetitions; the usual strategy of zlib seeks some at a loss
     pressed = zlib.compressobj(9, zlib.DEFLATED, 31, 9, zlib.Z_FILTERED)
     assert len(pressed.compress(text) + pressed.flush()) <= MOST
     assert b"src=" not in text.split(b"<script", 1)[0]
