@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
@@ -97,7 +98,7 @@ class Stepper:
         before = released(self._model, start)
         self._run = _core.SteppedRun(self._model.core, self._text, at, before, acting)
         self._variant, self._setting = self._model, self._model.core.setting
-        self._doubted = False
+        self._doubted: set[str] = set()
         self._moved()
 
     def _moved(self) -> None:
@@ -200,9 +201,11 @@ class Stepper:
             self._look_at_controllers()
         doubts = self._run.step(dt if type(dt) is float else _number(dt, "dt"))
         self._state = self._events = None
-        if doubts and not self._doubted:
-            self._doubted = True
-            for doubt in doubts:
+        for doubt in doubts:
+            # the words before the first number say what kind it is
+            kind = re.split(r"\d", doubt, maxsplit=1)[0]
+            if kind not in self._doubted:
+                self._doubted.add(kind)
                 warn(doubt, AccuracyWarning)
 
     def _look_at_controllers(self) -> None:

@@ -182,3 +182,20 @@ def test_many_sliding_contacts_are_not_examined() -> None:
         at[f"b{k}.omega"] = 0
     sol = kp.dynamics(m, kp.assemble(m, set=at), t_end=0.01)
     assert ["not examined" in text for text in sol.statistics["notes"]] == [True]
+
+
+def test_a_stepper_reports_a_paradox_at_its_start() -> None:
+    """Once, although the start belongs to no step; its motion is that of a run."""
+    m, start = rod(1.5, np.pi - 0.9, spin=0.4)
+    options = kp.Dynamics(t_end=1, jam="impact")
+    names = {name: start[name] for name in ("rod.x", "rod.y", "rod.angle")}
+    rates = {name: start[name] for name in ("rod.vx", "rod.vy", "rod.omega")}
+    case = kp.Case(m, {"set": names | rates}, [options])
+    stepper = kp.Stepper(case)
+    with pytest.warns(kp.AccuracyWarning, match=r"paradox.*touch"):
+        stepper.step(0.01)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        stepper.step(0.01)
+    sol, _ = run(m, start, t_end=0.02, jam="impact")
+    assert stepper.state["rod.omega"] == pytest.approx(sol["rod.omega"][-1], rel=1e-9)

@@ -85,6 +85,8 @@ pub struct SteppedRun<M> {
     first_step: Option<f64>,
     now: SavedRun,
     last: Run,
+    /// Doubts of the start or of a change, which the next part reports.
+    unreported: Vec<String>,
 }
 
 impl<M: Deref<Target = Model>> SteppedRun<M> {
@@ -118,7 +120,8 @@ impl<M: Deref<Target = Model>> SteppedRun<M> {
             StartCheck::of_run(&options).check(course.model(base), t, parts)?;
         }
         let now = SavedRun { course, grid: (t, 0.0, 0), largest_energy: 0.0, stopped_by: None };
-        Ok(Self { prepared, own, options, first_step, now, last })
+        let unreported = std::mem::take(&mut last.doubts);
+        Ok(Self { prepared, own, options, first_step, now, last, unreported })
     }
 
     /// Advances by a duration, or to the event that stops the run. [`Flow::Stop`] if `watch` or `act` has stopped the
@@ -136,10 +139,11 @@ impl<M: Deref<Target = Model>> SteppedRun<M> {
         self.options.t_end = now.end_of(duration)?;
         let first = self.first_step.map(|first| first.min(self.options.t_end - self.t()));
         self.options.method.control_mut().first_step = first;
-        let run = self.part(&mut now, watch, act)?;
+        let mut run = self.part(&mut now, watch, act)?;
         if !run.reached && run.stopped_by.is_none() {
             return Ok(Flow::Stop);
         }
+        run.doubts.splice(0..0, self.unreported.drain(..));
         (self.now, self.last) = (now, run);
         Ok(Flow::Continue)
     }
@@ -173,8 +177,14 @@ impl<M: Deref<Target = Model>> SteppedRun<M> {
     pub fn change(&mut self, change: Change) -> Result<(), Box<Failure>> {
         let (before, events) = (self.now.clone(), self.last.events.clone());
         let base = self.own.as_ref().map_or_else(|| &**self.prepared.model(), |own| &own.0);
+        let reported = std::mem::take(&mut self.last.doubts);
         let outcome = self.now.course.change(base, &self.options, change, &mut self.last);
-        outcome.inspect_err(|_| (self.now, self.last.events) = (before, events))
+        let new = std::mem::replace(&mut self.last.doubts, reported);
+        match outcome {
+            Ok(()) => self.unreported.extend(new),
+            Err(_) => (self.now, self.last.events) = (before, events),
+        }
+        outcome
     }
 
     /// The time reached, s.
