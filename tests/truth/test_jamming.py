@@ -199,3 +199,18 @@ def test_a_stepper_reports_a_paradox_at_its_start() -> None:
         stepper.step(0.01)
     sol, _ = run(m, start, t_end=0.02, jam="impact")
     assert stepper.state["rod.omega"] == pytest.approx(sol["rod.omega"][-1], rel=1e-9)
+
+
+def test_a_jam_among_many_closed_contacts_is_named_with_a_remedy() -> None:
+    """Combinations of at most six contacts are tried."""
+    m, _ = rod(1.5, np.pi - 0.9)
+    at: dict[str, Any] = {"rod.angle": np.pi - 0.9, "rod.omega": 0, "rod.P.x": 0, "rod.P.y": 0}
+    at |= {"rod.P.vx": 1, "rod.P.vy": 0}
+    for k in range(6):
+        m.body(f"b{k}", mass=1, inertia=1, points={"C": (0, 0)})
+        m.contact(f"c{k}", f"b{k}.C", "ground.floor", radius=1, restitution=0)
+        place = {"x": 3 * k + 2, "y": 1, "angle": 0, "vx": 0, "vy": 0, "omega": 0}
+        at |= {f"b{k}.{name}": x for name, x in place.items()}
+    start = kp.assemble(m, set=at)
+    with pytest.raises(kp.SingularityError, match=r"contacts touch, c0.*more than 6.*stiffness"):
+        kp.dynamics(m, start, t_end=1e-3, jam="impact")

@@ -64,15 +64,18 @@ pub(super) fn strike(
     let still = |k: usize| k < found.normals && found.all[k].rate <= place.slow(model, contacts[k]);
     let start = |k: usize| [if still(k) { 0.0 } else { rates[k] }, onset[k]];
     let start: Vec<Expansion> = (0..rates.len()).map(start).list();
-    let fails = |what: &str| {
-        let (t, name) = (place.t, model.forces[contacts[0]].name.clone());
-        let message = format!("the impact without collision at t = {t:.6} s {what}");
+    let fails = |why: &str| {
+        let names = contacts.iter().map(|k| model.forces[*k].name.as_str()).list();
+        let (t, name) = (place.t, names[0].to_string());
+        let message = format!(
+            "friction paradox (Painlevé) at t = {t:.6} s: the impact without collision of the closed contacts {} {why}; \
+             reduce their friction, or give one of them a stiffness in place of restitution",
+            names.join(", ")
+        );
         Err(Reason::Singular { t, name, message }.into())
     };
     if contacts.len() > MOST {
-        return fails(&format!(
-            "was not examined, because more than {MOST} contacts are closed there"
-        ));
+        return fails(&format!("was not examined, because they are more than {MOST}"));
     }
     let is_lost = |k: usize| lost.contains(&contacts[k]);
     match &solutions(&found, &start, &is_lost)[..] {
@@ -82,7 +85,7 @@ pub(super) fn strike(
             let found = Contacts { compression: Some(only.impulses.clone()), ..found };
             resolve(model, place, found, (own, law)).map(Some)
         }
-        _ => fails("is not unique: several sets of impulses agree with the friction"),
+        _ => fails("is not unique, because several sets of impulses agree with the friction"),
     }
 }
 

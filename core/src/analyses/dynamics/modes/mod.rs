@@ -112,7 +112,9 @@ fn settle_part(
             [] => holding::decide(model, place, before, (touching, jumped), at_once),
             [contact, ..] => Err(Failure::paradox(model, place.t, *contact)),
         };
-        if decided.is_ok() || laws.jam == Jam::Refuse || jammed.len() >= touching.len() {
+        let singular = |failure: &Failure| matches!(failure.reason, Reason::Singular { .. });
+        let jams = decided.as_ref().is_err_and(|failure| singular(failure));
+        if !jams || laws.jam == Jam::Refuse || jammed.len() >= touching.len() {
             break decided?;
         }
         match impacts::jam(model, place, (touching, lost), laws, &mut found)? {
