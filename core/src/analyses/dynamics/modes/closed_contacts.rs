@@ -116,6 +116,27 @@ impl Contacts {
         Ok(Self { closed, all, normals: contacts.len(), compliance, compression: None })
     }
 
+    /// The same contacts, where the friction of some slides in known directions: it is then a part of their normal
+    /// forces, and has no direction of its own.
+    pub fn with_sliding(mut self, direction: &dyn Fn(usize, f64) -> Option<f64>) -> Self {
+        let mut at = self.normals;
+        while at < self.all.len() {
+            let own = &self.all[at];
+            let (contact, mu) = own.of.expect("a friction has a contact");
+            let Some(sign) = direction(own.force, own.rate) else {
+                at += 1;
+                continue;
+            };
+            let factor = mu * sign * self.all[contact].unit / own.unit;
+            for row in &mut self.compliance {
+                row[contact] -= factor * row.remove(at);
+            }
+            self.compliance.remove(at);
+            self.all.remove(at);
+        }
+        self
+    }
+
     /// The rates after impulses.
     pub fn after(&self, rates: &[f64], impulses: &[f64]) -> Vec<f64> {
         let of = |row: &Vec<f64>| row.iter().zip(impulses).map(|(d, x)| d * x).sum::<f64>();

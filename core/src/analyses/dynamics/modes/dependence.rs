@@ -6,6 +6,7 @@
 
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
+use super::companions;
 use super::place::{drivers_rest, largest, mode_of, scaled, StateAt, NOISE, STILL};
 use crate::analyses::mobility::dependent_equations;
 use crate::analyses::second_order::mobility;
@@ -14,15 +15,65 @@ use crate::equations::constraints;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::leading;
-use crate::math::Listed;
+use crate::math::{Listed, Ordered};
 use crate::model::{DriverSet, ForceMode, Model};
 
 /// Rate at which friction without its own equation begins to slide, relative to the rates of the mechanism.
 const BEGINS: f64 = 1e-6;
 
+/// The modes with some forces held. Friction leads other friction only if its limit is large enough while all hold.
+pub(super) fn well_led(
+    model: &Model,
+    place: &StateAt<'_>,
+    free: &[ForceMode],
+    left: &[(usize, f64)],
+) -> Vec<ForceMode> {
+    let (mut left, mut last) = (left.to_vec(), Vec::new());
+    loop {
+        let modes = with_held(model, place, free, &left);
+        let Some(k) = overtaken(model, place, &modes).filter(|k| !last.contains(k)) else {
+            return modes;
+        };
+        last.push(k);
+        left.order_by_key(|(of, _)| last.contains(of));
+    }
+}
+
+/// The modes with some forces held, as far as their equations are independent.
+pub(super) fn with_held(
+    model: &Model,
+    place: &StateAt<'_>,
+    free: &[ForceMode],
+    left: &[(usize, f64)],
+) -> Vec<ForceMode> {
+    let mut left = left.to_vec();
+    loop {
+        let mut modes = free.to_vec();
+        let may_hold = |k: usize, of: &[(usize, f64)]| companions::may_hold(model, k, of);
+        left = left.iter().copied().filter(|(k, _)| may_hold(*k, &left)).list();
+        for own in independent(model, place, free, &left) {
+            // at the start of a run, no force has a mode yet
+            match modes.iter_mut().find(|of| of.force == own.force) {
+                Some(of) => *of = own,
+                None => modes.push(own),
+            }
+        }
+        companions::release(model, &mut modes);
+        // friction whose contact does not press leads no other friction
+        let leads = |k: usize| {
+            modes.iter().any(|of| matches!(of.mode, Mode::Follows { leader, .. } if leader == k))
+        };
+        let ends = |k: usize| leads(k) && !matches!(mode_of(&modes, k), Mode::Holds(_));
+        if !left.iter().any(|(k, _)| ends(*k)) {
+            return modes;
+        }
+        left.retain(|(k, _)| !ends(*k));
+    }
+}
+
 /// The modes of forces that hold together: their equations are independent of each other and of the joints. `free`
 /// are the modes with the directions in which friction would slide.
-pub(super) fn independent(
+fn independent(
     model: &Model,
     place: &StateAt<'_>,
     free: &[ForceMode],
@@ -110,9 +161,7 @@ fn dependent(
     if !matches!(model.forces[force].element.behaviour(), Some(Behaviour::Sticks)) {
         return of(Mode::Idle, 0.0);
     }
-    // where nothing moves, at the rate at which drivers no longer stand still
-    let rate = (BEGINS * place.rate_scale(&place.phase(model, held))).max(STILL);
-    let begins = rate * place.unit(model, force);
+    let begins = begins(model, place, held, force);
     if let Some(sign) = passes(model, place, held, (force, free, begins)) {
         return of(Mode::Slides(sign), 0.0);
     }
@@ -120,6 +169,13 @@ fn dependent(
         Some((leader, sense)) => of(Mode::Follows { leader, sense }, begins),
         None => of(Mode::Idle, begins),
     }
+}
+
+/// The speed at which friction without its own equation begins to slide.
+pub(super) fn begins(model: &Model, place: &StateAt<'_>, modes: &[ForceMode], force: usize) -> f64 {
+    // where nothing moves, at the rate at which drivers no longer stand still
+    let rate = (BEGINS * place.rate_scale(&place.phase(model, modes))).max(STILL);
+    rate * place.unit(model, force)
 }
 
 /// The sticking friction that keeps `force` from sliding, and the sign of the speed after a release.
@@ -153,7 +209,7 @@ fn leader(
 
 /// Friction whose limit is too small to lead the friction that follows it. The efforts of the others are not found from
 /// its own, so that the friction that leads here carries the effort of all.
-pub(super) fn overtaken(model: &Model, place: &StateAt<'_>, modes: &[ForceMode]) -> Option<usize> {
+fn overtaken(model: &Model, place: &StateAt<'_>, modes: &[ForceMode]) -> Option<usize> {
     let alone = modes.iter().map(|of| match of.mode {
         Mode::Follows { .. } => ForceMode { mode: Mode::Idle, ..*of },
         _ => *of,

@@ -133,7 +133,7 @@ impl Contacts {
 
     /// The impulses that complement these rates, as the limit for rates with a small part of `rest`. Friction may also use
     /// the normal impulses that are `given`.
-    fn solve(&self, rates: &[f64], given: &[f64], rest: &[f64]) -> Option<Vec<f64>> {
+    pub(super) fn solve(&self, rates: &[f64], given: &[f64], rest: &[f64]) -> Option<Vec<f64>> {
         let (n, m) = (self.normals, self.all.len() - self.normals);
         // Λ_N, the two directions of friction, and the slack of each friction
         let column = |k: usize| if k < n + m { (k, 1.0) } else { (k - m, -1.0) };

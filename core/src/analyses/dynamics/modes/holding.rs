@@ -6,9 +6,10 @@
 
 use super::super::failure::Failure;
 use super::companions;
-use super::dependence::{holders_of_friction, independent, overtaken};
+use super::dependence::{holders_of_friction, well_led, with_held};
 use super::impacts::{self, restitution};
 use super::place::{drivers_rest, mode_of, scaled, with_modes, StateAt, NOISE, STILL};
+use super::resting_contacts::Together;
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
@@ -41,7 +42,9 @@ pub(super) fn decide(
     let all: Vec<usize> = with_modes(model).list();
     let thresholds = place.thresholds(model, &all);
     // after an impact that stops the mechanism, only rounding errors of the speeds remain
-    let rate = place.rate_scale(&place.phase(model, before)).max(jumped.unwrap_or(0.0));
+    let phase = place.phase(model, before);
+    let acceleration = place.largest_acceleration(&phase);
+    let rate = place.fastest(&phase).max(acceleration.sqrt()).max(jumped.unwrap_or(0.0));
     let jumped = jumped.is_some();
     let holders = holders_of_friction(model, place, &all);
     let (mut modes, mut candidates) = (Vec::new(), Vec::new());
@@ -53,7 +56,10 @@ pub(super) fn decide(
         let (free, candidate) = match model.forces[*k].element.behaviour() {
             Some(Behaviour::Sticks) => {
                 let rests = drivers_rest(model, *holders, place.t, place.state(model)[0]);
-                let least = STILL * rate * place.unit(model, *k);
+                let unit = place.unit(model, *k);
+                // sliding that ends within the rounding error of its place would only rattle
+                let brief = (2.0 * acceleration * unit * place.rounding(model, *k)).sqrt();
+                let least = if jumped { brief } else { 0.0 }.max(STILL * rate * unit);
                 let still = threshold.abs() <= least || *threshold == 0.0 || rests;
                 let ended = !jumped && fired.contains(k);
                 let old = if jumped { Mode::Open } else { mode_of(before, *k) };
@@ -155,7 +161,7 @@ fn give_speed_slack(
         let speed = rate * place.unit(model, own.force);
         if sign * threshold <= STILL * speed {
             // a speed that counts as zero may have the opposite direction, and at rest it consists of rounding errors
-            own.slack = (-2.0 * sign * threshold).max(NOISE * speed);
+            own.slack = own.slack.max(-2.0 * sign * threshold).max(NOISE * speed);
         }
     }
 }
@@ -217,7 +223,23 @@ fn hold(
     let rubs = |k: &usize| free.iter().any(|of| of.force == *k && of.mode != Mode::Free);
     let ways = candidates.iter().map(|k| if rubs(k) { 3_usize } else { 2 }).list();
     let count = ways.iter().fold(1, |all: usize, own| all.saturating_mul(*own));
-    if found.as_ref().is_ok_and(|modes| fits(modes)) || count > MOST_TRIED {
+    if found.as_ref().is_ok_and(|modes| fits(modes)) {
+        return found;
+    }
+    let tried = |now: &[ForceMode], left: &[(usize, f64)]| {
+        let modes = well_led(model, place, now, left);
+        let ended = with_leaders(&modes, ended);
+        // with friction in contradictory directions there may be no solution
+        let reserves = worst(&place.phase(model, &modes), place, &ended);
+        (matches!(reserves, Ok(None)) && fits(&modes)).then_some(modes)
+    };
+    if let Some(together) = Together::of(model, place, &free, &all) {
+        let ways = [together.sharing(), together.alone(model, place)];
+        if let Some(modes) = ways.iter().find_map(|(now, left)| tried(now, left)) {
+            return Ok(modes);
+        }
+    }
+    if count > MOST_TRIED {
         return found;
     }
     // a force that was released early may have to hold after all: all combinations are tried, those in which most
@@ -233,10 +255,7 @@ fn hold(
                 _ => {}
             }
         }
-        let modes = well_led(model, place, &now, &left);
-        let ended = with_leaders(&modes, ended);
-        // with friction in contradictory directions there may be no solution
-        if matches!(worst(&place.phase(model, &modes), place, &ended), Ok(None)) && fits(&modes) {
+        if let Some(modes) = tried(&now, &left) {
             return Ok(modes);
         }
     }
@@ -263,44 +282,6 @@ fn released(
             own.mode = Mode::Slides(sign);
         }
     }
-}
-
-/// The modes with some forces held. Friction leads other friction only if its limit is large enough while all hold.
-fn well_led(
-    model: &Model,
-    place: &StateAt<'_>,
-    free: &[ForceMode],
-    left: &[(usize, f64)],
-) -> Vec<ForceMode> {
-    let (mut left, mut last) = (left.to_vec(), Vec::new());
-    loop {
-        let modes = with_held(model, place, free, &left);
-        let Some(k) = overtaken(model, place, &modes).filter(|k| !last.contains(k)) else {
-            return modes;
-        };
-        last.push(k);
-        left.order_by_key(|(of, _)| last.contains(of));
-    }
-}
-
-/// The modes with some forces held, as far as their equations are independent.
-fn with_held(
-    model: &Model,
-    place: &StateAt<'_>,
-    free: &[ForceMode],
-    left: &[(usize, f64)],
-) -> Vec<ForceMode> {
-    let mut modes = free.to_vec();
-    let left = left.iter().copied().filter(|(k, _)| companions::may_hold(model, *k, left)).list();
-    for own in independent(model, place, free, &left) {
-        // at the start of a run, no force has a mode yet
-        match modes.iter_mut().find(|of| of.force == own.force) {
-            Some(of) => *of = own,
-            None => modes.push(own),
-        }
-    }
-    companions::release(model, &mut modes);
-    modes
 }
 
 /// Whether the free contacts among the candidates separate, and sliding friction moves in its direction.

@@ -14,6 +14,7 @@
 //! | `friction_impact` | impacts of contacts with friction, and of all closed contacts together |
 //! | `holding` | contacts that rest and friction that sticks |
 //! | `jam` | impacts without collision, which end a friction paradox |
+//! | `resting_contacts` | which of the closed contacts press, from all of them together |
 //! | `sliding_contacts` | whether the motion with contacts that slide is unique |
 //! | `taking_part` | the mechanism without the contacts that are apart |
 
@@ -29,6 +30,7 @@ mod jam;
 mod mode_events;
 mod phases;
 mod place;
+mod resting_contacts;
 mod sliding_contacts;
 mod taking_part;
 

@@ -98,9 +98,12 @@ impl<'y> StateAt<'y> {
     /// A rate in 1/s that is large compared with rounding errors of rates: the largest one of the state, or that which
     /// the accelerations produce within the size of the mechanism or 1 rad.
     pub fn rate_scale(&self, phase: &Model) -> f64 {
-        let solved = self.solved(phase);
-        let accelerations = solved.map_or(0.0, |solved| scaled(phase, solved.a()));
-        self.fastest(phase).max(accelerations.sqrt())
+        self.fastest(phase).max(self.largest_acceleration(phase).sqrt())
+    }
+
+    /// The largest acceleration of a phase, 1/s²; zero where its equations have no solution.
+    pub fn largest_acceleration(&self, phase: &Model) -> f64 {
+        self.solved(phase).map_or(0.0, |solved| scaled(phase, solved.a()))
     }
 
     /// The largest rate of the state, 1/s.

@@ -90,10 +90,10 @@ pub(super) fn examine(
     let free = place.solved(&base)?;
     let gaps = place.gap_jets(model, &closed, free.a());
     let direction = |force: usize, rate: f64| match mode(force) {
-        Some(Mode::Slides(sign)) => sign,
-        _ => rate.signum(),
+        Some(Mode::Slides(sign)) => Some(sign),
+        _ => Some(rate.signum()),
     };
-    let problem = SlidingProblem::new(&found, &gaps, &direction);
+    let problem = SlidingProblem::new(&found.with_sliding(&direction), &gaps);
     let pressing = |k: usize| match mode(closed[k]) {
         Some(mode) => mode.holds(),
         None => is_contact(model, closed[k]),
@@ -124,8 +124,8 @@ pub fn lost(
     }
     let others = modes.iter().filter(|of| of.force != friction.force && of.force != contact);
     let found = Contacts::within(model, &others.copied().list(), place, &[contact])?;
-    let problem = SlidingProblem::new(&found, &[Jet::new(0.0, 0.0, 0.0)], &|_, _| sign);
-    Ok((problem.a[0][0] < HELD).then_some(contact))
+    let compliance = found.with_sliding(&|_, _| Some(sign)).compliance;
+    Ok((compliance[0][0] < HELD).then_some(contact))
 }
 
 /// The complementarity problem, in units in which its numbers are about 1.
@@ -135,17 +135,9 @@ struct SlidingProblem {
 }
 
 impl SlidingProblem {
-    /// `gaps` move without contact forces, and `direction` is the sign with which friction slides.
-    fn new(found: &Contacts, gaps: &[Jet], direction: &dyn Fn(usize, f64) -> f64) -> Self {
-        let n = found.normals;
-        let mut a: Vec<Vec<f64>> = found.compliance[..n].iter().map(|row| row[..n].to_vec()).list();
-        for (at, own) in found.all.iter().enumerate().skip(n) {
-            let (contact, mu) = own.of.expect("a friction has a contact");
-            let factor = mu * direction(own.force, own.rate) * found.all[contact].unit / own.unit;
-            for (row, compliance) in a.iter_mut().zip(&found.compliance) {
-                row[contact] -= factor * compliance[at];
-            }
-        }
+    /// `gaps` move without contact forces, and all friction slides.
+    fn new(found: &Contacts, gaps: &[Jet]) -> Self {
+        let a = found.compliance.clone();
         let b: Vec<f64> =
             gaps.iter().zip(&found.all).map(|(gap, own)| gap.second * own.unit).list();
         let scale = largest(&b).max(f64::MIN_POSITIVE);

@@ -1,0 +1,110 @@
+//! Which of the closed contacts press and which of their friction sticks, from all of them together.
+//!
+//! The accelerations g̈ of the gaps and τ of the sliding are linear in the forces of the contacts, and their laws are those of
+//! an impact with accelerations in place of rates: a linear complementarity problem (Pfeiffer and Glocker, *Multibody
+//! Dynamics with Unilateral Contacts*, 1996, chapter 5). Contacts that slide take part with their known friction.
+
+use super::closed_contacts::Contacts;
+use super::companions::contact_of;
+use super::dependence::begins;
+use super::place::{is_contact, largest, mode_of, StateAt};
+use crate::elements::Mode;
+use crate::math::{Listed, Ordered};
+use crate::model::{ForceMode, Model};
+
+/// Numbers below this one count as zero. The largest number of a problem is 1.
+const ZERO: f64 = 1e-9;
+
+/// A solution for the contacts among the candidates and their friction.
+pub(super) struct Together<'a> {
+    free: &'a [ForceMode],
+    candidates: &'a [(usize, f64)],
+    found: Contacts,
+    /// The forces of the contacts, and the accelerations with them.
+    solved: Vec<f64>,
+    after: Vec<f64>,
+    zero: f64,
+}
+
+impl<'a> Together<'a> {
+    /// None if there is no solution, or no contact among the candidates. All other forces are in the modes `free`.
+    pub fn of(
+        model: &Model,
+        place: &StateAt<'_>,
+        free: &'a [ForceMode],
+        candidates: &'a [(usize, f64)],
+    ) -> Option<Self> {
+        let is_rigid = |k: &usize| is_contact(model, *k) && !model.forces[*k].is_companion;
+        let contacts: Vec<usize> = candidates.iter().map(|(k, _)| *k).filter(is_rigid).list();
+        let takes_part = |k: usize| contacts.contains(&contact_of(model, k).unwrap_or(k));
+        let others = free.iter().filter(|of| !takes_part(of.force)).copied().list();
+        let slides = |k: usize, rate: f64| match mode_of(free, k) {
+            _ if candidates.iter().any(|(of, _)| *of == k) => None,
+            Mode::Slides(sign) => Some(sign),
+            _ => Some(rate.signum()),
+        };
+        let found = Contacts::within(model, &others, place, &contacts).ok()?.with_sliding(&slides);
+        let forces: Vec<usize> = found.all.iter().map(|own| own.force).list();
+        let apart = place.solved(&model.in_modes(&others)).ok()?;
+        let jets = place.gap_jets(model, &forces, apart.a());
+        let of = |k: usize| if k < found.normals { jets[k].second } else { jets[k].rate };
+        let onset: Vec<f64> = (0..forces.len()).map(|k| of(k) * found.all[k].unit).list();
+        let scale = largest(&onset).max(f64::MIN_POSITIVE);
+        let onset: Vec<f64> = onset.iter().map(|x| x / scale).list();
+        let none = vec![0.0; forces.len()];
+        let solved = found.solve(&onset, &none, &none)?;
+        let after = found.after(&onset, &solved);
+        let zero = ZERO * largest(&solved).max(1.0);
+        Some(Self { free, candidates, found, solved, after, zero })
+    }
+
+    fn at(&self, force: usize) -> Option<usize> {
+        self.found.all.iter().position(|own| own.force == force)
+    }
+
+    /// The candidates that hold, those with the largest forces first, and the modes of the others. Friction that sticks
+    /// shares its forces.
+    pub fn sharing(&self) -> (Vec<ForceMode>, Vec<(usize, f64)>) {
+        let mut modes = self.free.to_vec();
+        for own in &mut modes {
+            let Some(at) = self.at(own.force).filter(|at| *at >= self.found.normals) else {
+                continue;
+            };
+            if self.after[at].abs() > self.zero {
+                own.mode = Mode::Slides(self.after[at].signum());
+            }
+        }
+        let holds = |(force, _): &(usize, f64)| {
+            self.at(*force).is_none_or(|at| self.after[at].abs() <= self.zero)
+        };
+        let mut left = self.candidates.iter().copied().filter(holds).list();
+        let force = |(k, _): &(usize, f64)| self.at(*k).map_or(0.0, |at| self.solved[at].abs());
+        left.order_by(|a, b| force(b).total_cmp(&force(a)));
+        (modes, left)
+    }
+
+    /// The same, but only friction between its limits holds. Its equations are independent, because the solution is a vertex
+    /// of all solutions. Other friction that sticks has no force, or that of its limit.
+    pub fn alone(&self, model: &Model, place: &StateAt<'_>) -> (Vec<ForceMode>, Vec<(usize, f64)>) {
+        let (mut modes, mut left) = self.sharing();
+        let ends = |at: usize| -> Option<Mode> {
+            let (contact, mu) = self.found.all[at].of?;
+            let limit = mu * self.found.all[contact].unit / self.found.all[at].unit;
+            let (own, most) = (self.solved[at], limit * self.solved[contact]);
+            match own.abs() {
+                x if x <= self.zero => Some(Mode::Idle),
+                x if x >= most - self.zero => Some(Mode::Slides(-own.signum())),
+                _ => None,
+            }
+        };
+        let held = left.iter().filter_map(|(k, _)| Some((*k, ends(self.at(*k)?)?))).list();
+        for (force, mode) in held {
+            let slack = begins(model, place, self.free, force);
+            left.retain(|(k, _)| *k != force);
+            if let Some(own) = modes.iter_mut().find(|of| of.force == force) {
+                *own = ForceMode { slack, ..ForceMode::new(force, mode) };
+            }
+        }
+        (modes, left)
+    }
+}
