@@ -59,7 +59,7 @@ impl Barriers {
             dy: &to.v,
             interpolant: Interpolant::quintic(&stages, from.q.len()),
         };
-        let mut margins = Margins { barriers: self, model };
+        let mut margins = BarrierMargins { barriers: self, model };
         let parts = step_part::parts(model, &step);
         let path = StepPath::new(&step);
         let found = scan(&path, (count, parts), &mut margins, Direction::Falling, &|_| None);
@@ -70,12 +70,12 @@ impl Barriers {
 }
 
 /// How far a position is within each barrier: first the contacts, then the curves.
-struct Margins<'b> {
+struct BarrierMargins<'b> {
     barriers: &'b Barriers,
     model: &'b Model,
 }
 
-impl Watch for Margins<'_> {
+impl Watch for BarrierMargins<'_> {
     fn values(&mut self, t: f64, y: &[f64], some: &[usize], out: &mut [f64]) {
         let Barriers { contacts, curves } = self.barriers;
         let n = contacts.forces().len();
