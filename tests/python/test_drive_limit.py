@@ -364,3 +364,15 @@ def test_a_place_on_a_curve_has_no_limit() -> None:
     m.coordinate_driver("drive", "slide.u", value="t", limit=1)
     with pytest.raises(kp.ModelError, match="no force acts along the place of a joint"):
         kp.assemble(m)
+
+
+def test_a_law_that_uses_positions_has_no_limit() -> None:
+    m = kp.Model("follower")
+    m.ground.points(A=(0, 0), B=(1, 0))
+    for name in "ab":
+        m.body(name, mass=1, inertia=1, points={"O": (0, 0)})
+    m.revolute("A", "ground.A", "a.O")
+    m.revolute("B", "ground.B", "b.O")
+    m.coordinate_driver("drive", "b.angle", value="2*a.angle", limit=5)
+    with pytest.raises(kp.ModelError, match="uses positions, so that its effort acts on several"):
+        kp.assemble(m)

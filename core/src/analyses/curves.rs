@@ -1,6 +1,6 @@
 //! The ends of open curves, which a contact must not leave.
 
-use crate::math::Listed;
+use crate::math::{Listed, Real};
 use crate::model::Model;
 
 /// A contact may leave its curve by this fraction of the range of u, because of rounding.
@@ -18,6 +18,18 @@ impl Ranges {
             (!curve.periodic()).then(|| (k, slots.own.first, curve.range()))
         });
         Self(range.list())
+    }
+
+    /// Number of ranges.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// The distance of an internal coordinate, given by its column, from the nearer end of range `k`.
+    pub fn margin<S: Real>(&self, k: usize, coordinate: impl Fn(usize) -> S) -> S {
+        let (_, column, [a, b]) = self.0[k];
+        let (u, slack) = (coordinate(column), SLACK * (b - a));
+        (u - S::constant(a - slack)).min(S::constant(b + slack) - u)
     }
 
     /// The first constraint whose contact at the position `q` is beyond the end of its curve, with a description.

@@ -68,6 +68,18 @@ impl RigidContacts {
         Self(self.0.iter().copied().filter(closed).list())
     }
 
+    /// The gap of one of them at a position, beyond which it [is](Self::beyond) below zero.
+    pub fn margin(&self, model: &Model, (t, q): (f64, &[f64]), index: usize) -> f64 {
+        let (motions, z) = (Motions::at_rest(&model.layout, q), vec![0.0; model.layout.n_z]);
+        let acting = Acting { z: &z, lam: None, t };
+        forces::threshold(model, self.0[index], &motions, acting) + self.slack(model, index)
+    }
+
+    /// The depth up to which one of them counts as touching.
+    pub fn slack(&self, model: &Model, index: usize) -> f64 {
+        TOUCHING * unit(model, size(model), self.0[index])
+    }
+
     /// The indices of the forces.
     pub fn forces(&self) -> &[usize] {
         &self.0

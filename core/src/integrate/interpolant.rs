@@ -20,6 +20,13 @@ const TOGETHER: usize = 3;
 pub(super) const HERMITE: [f64; 12] =
     [1.0, -2.0, 1.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0, 3.0, -2.0, 0.0];
 
+/// The Hermite polynomial of degree 5: coefficients of θ … θ⁵ for the derivative at the beginning, h times the second one,
+/// the chord (y - y_old) / h, the derivative at the end, and h times the second one.
+const QUINTIC: [f64; 25] = [
+    1.0, 0.0, -6.0, 8.0, -3.0, 0.0, 0.5, -1.5, 1.5, -0.5, 0.0, 0.0, 10.0, -15.0, 6.0, 0.0, 0.0,
+    -4.0, 7.0, -3.0, 0.0, 0.0, 0.5, -1.0, 0.5,
+];
+
 /// The form of the solution between the ends of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Interpolant<'a> {
@@ -61,6 +68,12 @@ impl<'a> Interpolant<'a> {
         assert!(degree <= HIGHEST, "a method of a higher degree");
         assert!(table.len() <= MOST * degree, "a method of more stages");
         Self { form: Form::Stages(Stages { stages, table, len }), degree }
+    }
+
+    /// The Hermite polynomial of degree 5 from the derivative y′ at the beginning, h y″ there, the chord, y′ at the end and
+    /// h y″ there: five rows of length `len`.
+    pub fn quintic(stages: &'a [f64], len: usize) -> Self {
+        Self::new(stages, len, &QUINTIC, 5)
     }
 
     /// An interpolant with one polynomial of the highest degree for each component.

@@ -28,6 +28,14 @@ fn limit_of(
     quantities: &dyn Quantities,
     problems: &mut Vec<Problem>,
 ) -> Option<ForceElement<Tape>> {
+    if element.value().is_some_and(|law| law.variables().next().is_some()) {
+        let message =
+            "the law of the driver uses positions, so that its effort acts on several bodies"
+                .to_string();
+        let hint = "remove the limit, or give a value that uses t only";
+        problems.push(Problem::at(&["drivers", name, "limit"], message).hint(hint));
+        return None;
+    }
     let coordinate = match element.drives()? {
         Followed::Coordinate(of) => Some(Acted::from(*of)),
         Followed::Quantity(of) => quantities.acted(&of.name),

@@ -7,7 +7,7 @@ use super::options::Options;
 use super::parameter;
 use super::points::{EquilibriumPath, PathEnd};
 use super::spot::{ParameterPath, PathDirection, PathStep};
-use super::stride::advance;
+use super::stride::{advance, around};
 use super::turning;
 use crate::analyses::State;
 use crate::integrate::Flow;
@@ -20,6 +20,8 @@ const FIRST: f64 = 0.01;
 const LONGEST: f64 = 0.04;
 /// Shortest step.
 const SHORTEST: f64 = 1e-9;
+/// Step across a kink, which is nearer than the shortest step.
+const KINK: f64 = 1e-6;
 /// Largest number of iterations after which the next step is lengthened.
 const EASY: usize = 4;
 /// Largest number of points.
@@ -80,7 +82,16 @@ fn follow(
         }
         let next = match advance(course, &at, ds) {
             Ok(next) => next,
-            Err(reason) if ds < SHORTEST => return Ok(PathEnd::Lost(reason)),
+            Err(reason) if ds < SHORTEST => {
+                ds = KINK;
+                let inside = |next: &PathStep| {
+                    (next.spot.value - range[0]) * (next.spot.value - range[1]) < 0.0
+                };
+                match around(course, &at, ds).filter(inside) {
+                    Some(next) => next,
+                    None => return Ok(PathEnd::Lost(reason)),
+                }
+            }
             Err(_) => {
                 ds *= 0.5;
                 continue;

@@ -19,10 +19,41 @@ pub(super) fn advance(
     from: &PathStep,
     ds: f64,
 ) -> Result<PathStep, Reason> {
-    let PathStep { spot: Spot { place, value, .. }, tangent, .. } = from;
-    let ahead: Vec<f64> = place.q.iter().zip(&tangent.q).map(|(q, dq)| q + ds * dq).list();
-    let goal = value + ds * tangent.p;
-    let mut spot = course.spot(goal, &ahead, &place.z)?;
+    towards(course, &from.spot, &from.tangent, ds)
+}
+
+/// The point of the path beyond a kink that is nearer than `ds`, as where a linear stop begins to push: the path turns
+/// there to the tangent that the stiffness beyond the kink gives. None if the path does not continue.
+pub(super) fn around(course: &ParameterPath<'_>, from: &PathStep, ds: f64) -> Option<PathStep> {
+    let (ahead, goal) = predicted(&from.spot, &from.tangent, ds);
+    let beyond = course.spot(goal, &ahead, &from.spot.place.z).ok()?;
+    let after = course.tangent(&beyond, &from.tangent)?;
+    [1.0, -1.0].into_iter().find_map(|sense| {
+        let q = after.q.iter().map(|x| sense * x).list();
+        let turned = PathDirection { q, p: sense * after.p };
+        let back = course.along(&turned, &from.tangent) < -ALONG;
+        towards(course, &from.spot, &turned, ds).ok().filter(|_| !back)
+    })
+}
+
+/// The position and the value at the distance `ds` along a direction.
+fn predicted(
+    Spot { place, value, .. }: &Spot,
+    tangent: &PathDirection,
+    ds: f64,
+) -> (Vec<f64>, f64) {
+    let q = place.q.iter().zip(&tangent.q).map(|(q, dq)| q + ds * dq).list();
+    (q, value + ds * tangent.p)
+}
+
+fn towards(
+    course: &ParameterPath<'_>,
+    from: &Spot,
+    tangent: &PathDirection,
+    ds: f64,
+) -> Result<PathStep, Reason> {
+    let (ahead, goal) = predicted(from, tangent, ds);
+    let mut spot = course.spot(goal, &ahead, &from.place.z)?;
     let lost = || Reason::Lost { relative: f64::NAN, coordinate: course.over.to_string() };
     let mut last = f64::INFINITY;
     for iterations in 1..=ITERATIONS {

@@ -5,13 +5,12 @@
 //! little from a linear prediction. A position on another branch would be farther away or have a different velocity.
 //! A rejected step is halved.
 
+use super::barriers::Barriers;
 use super::dead_point::Limit;
 use super::failure::{self, Failure, Reason};
 use super::passage;
 use super::quintic::Quintic;
 use super::solution::{Point, Solver};
-use crate::analyses::curves::Ranges;
-use crate::analyses::rigid::RigidContacts;
 use crate::analyses::second_order::mobility;
 use crate::analyses::State;
 use crate::math::Listed;
@@ -38,6 +37,10 @@ const SHORT: f64 = 0.2;
 /// Largest scaled residual at which the start, or an interpolated position, counts as closed.
 const START: f64 = 1e-9;
 
+/// Largest number of times that a step is halved to decide whether it passes a barrier. A barrier that is passed by less
+/// than the error of the polynomial over the shortest part is not reached.
+const MOST_HALVED: usize = 6;
+
 /// Width to which the last position within limits is located, as a fraction of t or of 1.
 const LOCATED: f64 = 1e-14;
 
@@ -52,10 +55,8 @@ pub(in crate::analyses) struct Continuation<'a> {
     /// The sign of det Φ_q at the point, if it is known.
     orientation: Option<f64>,
     rejected: usize,
-    /// Stops and contacts that the motion must not pass.
-    contacts: RigidContacts,
-    /// Curves that contacts must not leave.
-    curves: Ranges,
+    /// What the motion must not pass.
+    barriers: Barriers,
 }
 
 impl<'a> Continuation<'a> {
@@ -68,8 +69,8 @@ impl<'a> Continuation<'a> {
         if let Some(row) = (0..gaps.len()).find(|row| open(gaps[*row])) {
             return Err(Reason::open(model, *t, row, gaps[row] * solver.rows[row]).into());
         }
-        let contacts = RigidContacts::of(model);
-        if let Some((name, gap)) = contacts.beyond(model, *t, q) {
+        let barriers = Barriers::of(model);
+        if let Some((name, gap)) = barriers.contact_beyond(model, *t, q) {
             return Err(Reason::Beyond { t: *t, name, gap }.into());
         }
         let freedom = mobility(model, *t, q);
@@ -90,8 +91,7 @@ impl<'a> Continuation<'a> {
                 length: f64::INFINITY,
                 orientation: None,
                 rejected: 0,
-                contacts,
-                curves: Ranges::of(model),
+                barriers,
             }),
             None => Err(Reason::singular_start(model, *t, q, &freedom).into()),
         }
@@ -111,19 +111,47 @@ impl<'a> Continuation<'a> {
     /// point.
     pub fn step(&mut self, goal: f64) -> Result<(), Reason> {
         let from = Arc::clone(&self.point);
-        self.advance(goal)?;
+        let advanced = self.advance(goal);
+        let outside = match &advanced {
+            Ok(()) => self.outside(&from, Arc::clone(&self.point), MOST_HALVED),
+            Err(Reason::Limit(limit)) => {
+                let Limit { t, q, .. } = &**limit;
+                self.is_beyond(*t, q)
+                    .then(|| Point { t: *t, q: q.clone(), ..(*from).clone() }.into())
+            }
+            Err(_) => None,
+        };
+        let Some(outside) = outside else { return advanced };
         let model = self.solver.model;
-        let Point { t, q, .. } = &*self.point;
-        let touched =
-            self.contacts.beyond(model, *t, q).map(|(name, _)| format!("{name} is reached"));
-        let left = self.curves.beyond(model, q);
-        let ended = left.map(|(name, _)| format!("{name} is at the end of its curve"));
-        let Some(reached) = touched.or(ended) else { return Ok(()) };
-        let (contacts, curves) = (self.contacts.clone(), self.curves.clone());
-        let inside =
-            |t, q: &[f64]| contacts.allow(model, t, q) && curves.beyond(model, q).is_none();
-        self.back(from, inside);
+        let reached = self.barriers.beyond(model, outside.t, &outside.q).unwrap_or_default();
+        let barriers = self.barriers.clone();
+        self.point = outside;
+        self.back(from, |t, q: &[f64]| barriers.allow(model, t, q));
         Err(Reason::Limit(Box::new(Limit::of_barrier(model, &self.point, reached))))
+    }
+
+    fn is_beyond(&self, t: f64, q: &[f64]) -> bool {
+        self.barriers.beyond(self.solver.model, t, q).is_some()
+    }
+
+    /// A point of the motion between two points that is beyond a barrier. Where the polynomial between them passes one
+    /// but the motion does not, the step is halved, because the error of the polynomial is then 64 times smaller.
+    fn outside(&mut self, from: &Point, to: Arc<Point>, halvings: usize) -> Option<Arc<Point>> {
+        let passed = self.barriers.passed(self.solver.model, from, &to);
+        let end = self.is_beyond(to.t, &to.q).then(|| Arc::clone(&to));
+        let Some(t) = passed.filter(|t| *t != to.t || end.is_none()) else { return end };
+        let closed = |solver: &mut Solver<'a>, t: f64| {
+            let quintic = Quintic::new(from, &to);
+            let guess = quintic.at((t - from.t) / quintic.h).q;
+            solver.point(t, guess).map(Arc::new)
+        };
+        if let Some(there) = closed(&mut self.solver, t).filter(|at| self.is_beyond(at.t, &at.q)) {
+            return Some(there);
+        }
+        let middle = (halvings > 0).then(|| closed(&mut self.solver, 0.5 * (from.t + to.t)));
+        let Some(middle) = middle.flatten() else { return end };
+        let first = self.outside(from, Arc::clone(&middle), halvings - 1);
+        first.or_else(|| self.outside(&middle, to, halvings - 1))
     }
 
     /// Goes back, within the last step from a point, to the last position that is `inside`, by bisection.

@@ -7,6 +7,7 @@
 //! | file | concept |
 //! |---|---|
 //! | `solution` | positions, velocities and accelerations at a time |
+//! | `barriers` | stops, contacts and ends of curves, and whether a step passes them |
 //! | `continuation` | steps along a branch |
 //! | `dead_point` | limits in terms of the mechanism |
 //! | `passage`, `path`, `limit` | change points and limits; the branch by arc length, and the extreme of t on it |
@@ -19,6 +20,7 @@
 //! | `record` | both analyses, and their record |
 //! | `failure` | reasons for which a motion ends early, in terms of the mechanism |
 
+mod barriers;
 mod circuit;
 mod continuation;
 mod dead_point;

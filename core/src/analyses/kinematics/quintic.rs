@@ -18,6 +18,14 @@ impl<'p> Quintic<'p> {
         Self { from, to, h: to.t - from.t }
     }
 
+    /// v₀, h a₀, the mean rate, v₁ and h a₁, for `Interpolant::quintic`: shape (5, n_q).
+    pub fn stages(&self) -> Vec<f64> {
+        let Self { from, to, h } = self;
+        let mean = from.q.iter().zip(&to.q).map(|(from, to)| (to - from) / h);
+        let of = |a: &[f64]| a.iter().map(|a| h * a).list();
+        [from.v.clone(), of(&from.a), mean.list(), to.v.clone(), of(&to.a)].concat()
+    }
+
     /// Coefficients of θ, …, θ⁵ for coordinate `k` minus its initial value.
     pub fn position(&self, k: usize) -> [f64; DEGREE] {
         let Self { from, to, h } = *self;

@@ -21,7 +21,7 @@ use super::super::failure::{Failure, Reason};
 use super::super::options::RestitutionLaw;
 use super::closed_contacts::Contacts;
 use super::impact::{driver_work, Impact, Restitutions};
-use super::place::{largest, StateAt};
+use super::place::{largest, StateAt, STILL};
 use crate::equations::energy;
 use crate::equations::kinematics::Motions;
 use crate::math::Listed;
@@ -171,9 +171,12 @@ impl Contacts {
     ) -> Impact {
         let found = self.rows(impulses);
         let Self { closed, all, .. } = self;
+        // a contact that rests has a rate and an impulse that are rounding errors while others hit
+        let pushed = all.iter().zip(impulses).map(|(own, x)| x / own.unit).list();
+        let least = STILL * largest(&pushed);
         let pushes = |k: &&usize| {
             let own = all.iter().position(|own| own.force == **k);
-            own.is_some_and(|at| impulses[at] > 0.0 || all[at].rate < 0.0)
+            own.is_some_and(|at| pushed[at].max(-all[at].rate * all[at].unit) > least)
         };
         let contacts = contacts.iter().filter(pushes).copied().list();
         Impact { contacts, closed, found, after, loss, common }
