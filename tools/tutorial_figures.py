@@ -51,10 +51,15 @@ def pictures(name: str) -> dict[str, Image.Image]:
                     exec(compile(code, f"{name}.md", "exec"), names)
         finally:
             os.chdir(before)
-        found = {}
-        for path in sorted(Path(folder).glob("*.png")):
-            with Image.open(path) as image:
-                found[path.name] = image.convert("RGB").quantize(COLOURS)
+        return written(Path(folder))
+
+
+def written(folder: Path) -> dict[str, Image.Image]:
+    """The pictures in a folder, with few colours, by file name."""
+    found = {}
+    for path in sorted(folder.glob("*.png")):
+        with Image.open(path) as image:
+            found[path.name] = image.convert("RGB").quantize(COLOURS)
     return found
 
 

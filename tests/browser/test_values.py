@@ -32,6 +32,10 @@ MADE: dict[str, Callable[[], kp.Solution]] = {
 }
 
 
+#: The part of the time at which the values of a mechanism are read; all of them in full size.
+PARTS = {"four_bar": 0.0, "slider_crank": 0.5, "six_bar": 1.0}
+
+
 @pytest.fixture(scope="session")
 def solved() -> dict[str, kp.Solution]:
     return {name: make() for name, make in MADE.items()}
@@ -113,7 +117,7 @@ def test_every_value_in_the_legends_is_that_of_the_solution(
     watched.page.uncheck("#degrees")
     end = float(solution.t[-1])
     checked = set()
-    for t in (0.0, 0.5 * end, end) if FULL or name == "four_bar" else (0.5 * end,):
+    for t in [part * end for part in (PARTS.values() if FULL else [PARTS[name]])]:
         told = expected(solution, t)
         watched.seek(t)
         for quantity in watched.page.locator(".quantity option").all_inner_texts():

@@ -11,6 +11,7 @@ from typing import Any
 
 import kempe as kp
 import pytest
+from sizes import FULL
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "four_bar.toml"
 
@@ -30,6 +31,8 @@ VALUES = {
     "date": "2026-01-01",
 }
 WAYS = ["deleted", "renamed", "twice", *VALUES]
+#: Each field is broken in every third way, beginning with another one; in all ways in full size.
+PART = 1 if FULL else 3
 
 #: Limit of the processor time of one mutant from reading to the end of the simulation, s.
 PATIENCE = 5.0
@@ -143,8 +146,8 @@ def test_the_text_that_is_mutated_is_the_flagship(tmp_path: Path) -> None:
 @pytest.mark.filterwarnings("ignore::kempe.ModelWarning")
 def test_every_mutant_runs_or_is_refused(tmp_path: Path) -> None:
     refused, placed, unplaced = 0, 0, []
-    for path in ALL:
-        for way in WAYS:
+    for k, path in enumerate(ALL):
+        for way in WAYS[k % PART :: PART]:
             text = mutant(path, way)
             if text is None:
                 continue
@@ -158,7 +161,7 @@ def test_every_mutant_runs_or_is_refused(tmp_path: Path) -> None:
                     placed += 1
                 else:
                     unplaced.append((path, way, str(error)))
-    assert refused > 500
+    assert refused > 500 / PART
     assert placed >= 0.99 * refused, (placed, refused, unplaced[:20])
 
 

@@ -43,7 +43,7 @@ def test_the_gap_of_two_ellipses(size: float) -> None:
     m.contact("touch", **given, restitution=0)
     rng, whole = np.random.default_rng(2), (-4.0, 10.0)
     apart = 0
-    for _ in range(count(40, 400)):
+    for _ in range(count(20, 400)):
         i, j = (rng.uniform(-1, 1, 3) * [1, 1, 9] for _ in range(2))
         start = posed("a", i * [size, size, 1]) | posed("b", j * [size, size, 1])
         gap = kp.assemble(m, set=start)["touch.gap"] / size
@@ -85,7 +85,7 @@ def test_the_gaps_of_other_curves() -> None:
             if not (known[one][2] or known[other][2]):
                 continue
             m = pair(known[one][0], known[other][0])
-            for _ in range(count(6, 60)):
+            for _ in range(count(4, 60)):
                 poses = [rng.uniform(-1, 1, 3) * [1, 1, 9] for _ in range(2)]
                 start = posed("a", poses[0]) | posed("b", poses[1])
                 gap = kp.assemble(m, set=start)["touch.gap"]

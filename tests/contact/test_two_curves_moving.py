@@ -167,7 +167,7 @@ def test_no_touch_is_missed() -> None:
     table = np.array([[-0.8, 0.8, 0.8, -0.8], [-1.0, -1.0, 0.0, 0.0]])
     rng = np.random.default_rng(11)
     hits = 0
-    for _ in range(count(8, 80)):
+    for _ in range(count(4, 80)):
         m = kp.Model("drops", gravity=(0, -G))
         m.ground.curves(table={"polygon": [tuple(map(float, p)) for p in table.T]})
         start = {}

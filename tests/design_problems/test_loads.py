@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from design_problems.conftest import SECTION, written
 from design_problems.test_faults import dyad
+from sizes import only_full
 
 
 def crane(size: float, mass: float) -> kp.Case:
@@ -85,7 +86,10 @@ def test_the_slope_is_that_of_the_worst_load() -> None:
     assert high.objective == pytest.approx(min(fast(900, m) for m in (1, 2, 4)), rel=1e-6)
 
 
-@pytest.mark.parametrize("method", ["slsqp", "trust-constr", "differential-evolution"])
+@pytest.mark.parametrize(
+    "method",
+    ["slsqp", "trust-constr", pytest.param("differential-evolution", marks=only_full)],
+)
 def test_a_limit_holds_in_every_load(method: str) -> None:
     """The block of 4 kg sinks most; the limit has a formula and a parameter of its load case."""
     best = kp.optimize(

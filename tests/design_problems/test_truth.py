@@ -6,9 +6,11 @@ import kempe as kp
 import numpy as np
 import pytest
 from design_problems.machines import SCALES, four_bar, lamp, path_generator, slider_crank
+from kempe.sweeps.problems import search
+from sizes import some
 
 
-@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("scale", some(SCALES, 2))
 def test_counterweights_of_berkof_and_lowen(scale: tuple[float, float, float]) -> None:
     case, exact = four_bar(*scale)
     bounds = dict.fromkeys(exact, (-3 * scale[1], 3 * scale[1]))
@@ -17,7 +19,7 @@ def test_counterweights_of_berkof_and_lowen(scale: tuple[float, float, float]) -
     assert best.success and best.runs < 60
 
 
-@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("scale", some(SCALES[::-1], 2))
 def test_spring_with_least_torque(scale: tuple[float, float, float]) -> None:
     case, exact = slider_crank(*scale)
     bounds = {"k": (exact["k"] / 10, exact["k"] * 10, "log"), "free": (0, scale[1])}
@@ -27,7 +29,7 @@ def test_spring_with_least_torque(scale: tuple[float, float, float]) -> None:
 
 
 @pytest.mark.parametrize("method", [None, "slsqp", "trust-constr"])
-@pytest.mark.parametrize("scale", SCALES[:2])
+@pytest.mark.parametrize("scale", some(SCALES[1::-1], 1))
 def test_balanced_lamp(scale: tuple[float, float, float], method: str | None) -> None:
     case, exact = lamp(*scale)
     bounds = {"k": (0, 10 * exact["k"]), "free": (-scale[1], scale[1])}
@@ -37,19 +39,17 @@ def test_balanced_lamp(scale: tuple[float, float, float], method: str | None) ->
     assert best.values["free"] == pytest.approx(0, abs=precise * scale[1])
 
 
-def test_lamp_by_evolution_and_as_a_target() -> None:
-    case, exact = lamp(1, 1, 9.81, n=9)  # a search has thousands of runs
-    bounds = {"k": (0, 10 * exact["k"]), "free": (-1, 1)}
+def test_lamp_by_evolution(monkeypatch: pytest.MonkeyPatch) -> None:
+    case, exact = lamp(1, 1, 9.81, n=5)  # a search has hundreds of runs
+    case = case.with_parameters({"free": 0.0})
     evolution: dict[str, Any] = {"method": "differential-evolution", "seed": 3}
-    found = kp.optimize(case, bounds, minimize="over.effort.rms", **evolution)
-    assert found.values["k"] == pytest.approx(exact["k"], rel=1e-2)
+    monkeypatch.setattr(search, "_GENERATIONS", 10)  # a parabola in one variable
     first, again = (
-        kp.optimize(case, {"k": bounds["k"]}, minimize="over.effort.rms", **evolution)
+        kp.optimize(case, {"k": (0, 10 * exact["k"])}, minimize="over.effort.rms", **evolution)
         for _ in range(2)
     )
+    assert first.values["k"] == pytest.approx(exact["k"], rel=1e-2)
     assert first.values == again.values
-    best = kp.optimize(case, bounds, target={"over.effort.rms": 0})
-    assert best.values["k"] == pytest.approx(exact["k"], rel=1e-6)
 
 
 #: Problem 2 of Cabrera, Simon and Prado (2002).

@@ -8,22 +8,29 @@ import pytest
 from docs.comparison import agrees
 from docs.pages import PAGES, anchors, blocks, links
 from docs.reader import Reader
+from docs.test_tutorial_figures import check_figures
 from house.places import ROOT
 from kempe import _compact, _core, _reference
 from sizes import only_full
+
+from tools import tutorial_figures
 
 #: Languages of blocks. The tests do not run `sh` blocks, which contain installations and `./test`.
 LANGUAGES = {"python", "console", "text", "toml", "json", "sh", "math", ""}
 
 
-#: Pages whose runs take ten seconds and more. What they show is tested in tests/sweeps,
-#: tests/design_problems, tests/lab_report and tests/truth.
+#: Pages whose runs take five seconds and more. What they show is tested in tests/cams, tests/fits,
+#: tests/sweeps, tests/design_problems, tests/lab_report and tests/truth.
 LONG = {
+    "docs/beams.md",
     "docs/optimization.md",
     "docs/report.md",
     "docs/sweeps.md",
+    "docs/tutorials/filling_machine.md",
     "docs/tutorials/geneva_drive.md",
+    "docs/tutorials/gripper.md",
     "docs/tutorials/spring_choice.md",
+    "docs/tutorials/test_rig.md",
 }
 
 
@@ -47,6 +54,8 @@ def test_the_blocks_of_a_page_run(
     for block in blocks(page.read_text("utf-8")):
         assert block.language in LANGUAGES, f"{page.name}, line {block.line}"
         reader.follow(block)
+    if page.parent == tutorial_figures.PAGES and page.stem in tutorial_figures.tutorials():
+        check_figures(page.stem, tmp_path)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=page_name)

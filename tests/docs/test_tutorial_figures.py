@@ -1,28 +1,24 @@
 """The figures of the tutorials are those that their pages draw today."""
 
+from pathlib import Path
+
 import matplotlib as mpl
-import pytest
 from docs.pages import links
 from PIL import Image
 from plot.test_pictures import pinned, unlike
-from sizes import FULL
 
 from tools import tutorial_figures
 
-#: Their runs take ten seconds and more.
-LONG = ("geneva_drive", "gripper", "spring_choice")
-NAMES = [name for name in tutorial_figures.tutorials() if FULL or name not in LONG]
 
-
-@pytest.mark.parametrize("name", NAMES)
-def test_the_figures_of_a_tutorial_are_up_to_date(name: str) -> None:
+def check_figures(name: str, folder: Path) -> None:
+    """Compare the figures of a tutorial with those that its page has written to a folder."""
     page = (tutorial_figures.PAGES / f"{name}.md").read_text("utf-8")
-    drawn = tutorial_figures.pictures(name)
+    drawn = tutorial_figures.written(folder)
     assert {f"../images/tutorials/{file}" for file in drawn} == {
         link for link in links(page) if link.startswith("../images/tutorials/")
     }
     if mpl.__version__ != pinned():
-        pytest.skip(f"figures are made with Matplotlib {pinned()}, this is {mpl.__version__}")
+        return
     for file, image in drawn.items():
         path = tutorial_figures.FOLDER / file
         assert path.stat().st_size < 40_000

@@ -3,7 +3,7 @@
 import kempe as kp
 import numpy as np
 import pytest
-from sizes import count
+from sizes import FULL, count
 
 TIMES = np.linspace(0.1, 4.9, 60)
 
@@ -76,8 +76,16 @@ def test_a_value_of_zero_is_no_sign_of_no_effect() -> None:
     assert found.undetermined == ("idle has no effect on the data",)
 
 
-@pytest.mark.parametrize("robust", ["huber", "soft_l1", "cauchy", "arctan"])
-@pytest.mark.parametrize("outliers", [0.0, 0.1])
+#: Functions of the error with and without outliers; each with one of both in the usual size.
+ROBUST = [
+    (robust, outliers)
+    for k, robust in enumerate(("huber", "soft_l1", "cauchy", "arctan"))
+    for n, outliers in enumerate((0.0, 0.1))
+    if FULL or (k + n) % 2 == 0
+]
+
+
+@pytest.mark.parametrize(("robust", "outliers"), ROBUST)
 def test_intervals_of_robust_fits(robust: str, outliers: float) -> None:
     """The truth is in 95 % of the intervals; the bound is that of four deviations of the share."""
     trials, inside, draw = count(30, 300), 0, np.random.default_rng(2)

@@ -302,7 +302,7 @@ def bending(of: Units) -> Made:
     m.force("load", "rod.B", force=(0, "-p"))
     measures = ["rod.B.y.final", "rod.P.angle.final", "rod.stress.final"]
     measures += ["rod.bending_moment.final", "rod.strain_energy.final", "clamp.torque.final"]
-    return Made(m, measures, {}, end=0.3, analyses=RESTS)
+    return Made(m, measures, {}, end=0.1, analyses=RESTS)
 
 
 def tapered(of: Units) -> Made:
@@ -323,7 +323,7 @@ def tapered(of: Units) -> Made:
     m.weld("clamp", "ground.O", "rod.A")
     m.force("load", "rod.B", force=("p/2", "-p"))
     measures = ["rod.B.y.final", "rod.stress.final", "clamp.torque.final"]
-    return Made(m, measures, {}, end=0.3, analyses=RESTS)
+    return Made(m, measures, {}, end=0.1, analyses=RESTS)
 
 
 FORCES: list[Maker] = [

@@ -75,9 +75,10 @@ def tracked() -> list[str]:
 def stilted(text: str) -> list[tuple[int, str, str]]:
     """Line, expression and alternative of every stilted expression in a text."""
     found = []
-    text = re.sub(r"[ \t]+", " ", text)  # most of the prose of code is blank
+    # most of the prose of code is blank, and a comparison that ignores case takes twice the time
+    text = re.sub(r"[ \t]+", " ", text).lower()
     for pattern, plain in STILTED.items():
-        expression = re.compile(rf"\b(?:{pattern})\b".replace(" ", r"\s+"), re.IGNORECASE)
+        expression = re.compile(rf"\b(?:{pattern})\b".replace(" ", r"\s+"))
         for match in expression.finditer(text):
             line = text.count("\n", 0, match.start()) + 1
             found.append((line, " ".join(match[0].split()), plain))

@@ -7,6 +7,7 @@ from kempe.plot import style
 from kempe.plot.envelope import draw_envelope, logarithmic
 from matplotlib.collections import PolyCollection
 from motions import results
+from sizes import FULL
 
 
 @pytest.mark.parametrize("scale", [1e-12, 1.0, 1e3])
@@ -64,7 +65,7 @@ def test_the_key_figure_is_compressed_after_the_action() -> None:
     [
         ("jansen_leg", ["path_foot.F", "effort_motor"]),
         ("crane_trolley", ["effort_drive"]),  # the trolley moves on a line
-        ("geneva_drive", ["effort_motor"]),
+        *[("geneva_drive", ["effort_motor"])] * FULL,  # its run takes seconds
         ("four_bar", []),  # without a driver
     ],
 )

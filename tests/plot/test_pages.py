@@ -168,8 +168,9 @@ def test_other_mechanisms_can_be_read_too(solution) -> None:  # type: ignore[no-
 
 def test_names_are_shown_as_they_are(tmp_path: Path) -> None:
     found = plot.pages(chain(NAMES))
-    written = plot.save(found, tmp_path)
-    assert len({path.name.casefold() for path in written}) == 2 * len(found)
+    assert len({page.stem.casefold() for page in found}) == len(found)
+    written = plot.save(found[:2], tmp_path)
+    assert len(written) == 4
     assert all(path.stat().st_size > 0 for path in written)
     texts = {text.get_text() for text in found[1].figure().axes[0].texts}
     assert {r"\$x_1\$", "<script>ale…1)</script>", "n" * 11 + "…" + "n" * 11} <= texts

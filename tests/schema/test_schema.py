@@ -65,7 +65,7 @@ def test_every_type_occurs() -> None:
 def test_the_verdict_on_mutated_cases_is_that_of_the_core() -> None:
     chance = random.Random(13)
     names, references, refused = list(CASES), 0, 0
-    size = count(300, 1000)
+    size = count(150, 1000)
     for _ in range(size):
         words, case = mutated(CASES[chance.choice(names)], chance)
         fault = refusal(case)
@@ -102,10 +102,10 @@ def tables(node: Any, path: list[Any]) -> list[tuple[list[Any], dict[str, Any]]]
 
 
 #: "everything" has every type.
-SOME = some([*CASES], 12)
+SOME = sorted({*some([*CASES], 6), "everything"})
 
 
-@pytest.mark.parametrize("name", sorted({*SOME, "everything"}))
+@pytest.mark.parametrize("name", SOME)
 def test_one_typo_of_a_key_is_one_error_that_names_it(name: str) -> None:
     chance = random.Random(5)
     for path, table in tables(CASES[name], []):
@@ -128,7 +128,7 @@ def test_one_typo_of_a_key_is_one_error_that_names_it(name: str) -> None:
             assert wrong in refusal(case)
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", SOME)
 def test_one_typo_of_a_type_is_one_error_that_names_it(name: str) -> None:
     chance = random.Random(6)
     for path, table in tables(CASES[name], []):

@@ -14,6 +14,7 @@ import pytest
 from kempe.plot.panel import curve
 from kempe.report import summary
 from kempe.results.extrema import largest, least, peak, unbounded
+from sizes import FULL
 
 from examples import n_four_bar
 from examples.n_four_bar import GRAVITY, rate, upright, windows
@@ -44,7 +45,11 @@ def force(k: int, motion: kp.Motion) -> np.ndarray:
     return motion.constraint(f"B{k}").force(on=f"coupler{k}")
 
 
-@pytest.mark.parametrize(("n", "k"), [(1, 0), (2, 0), (2, 1), (40, 0), (40, 20), (40, 39)])
+#: Windows and one of their joints.
+JOINTS = [(1, 0), (2, 0), (2, 1), (40, 20), *[(40, 0), (40, 39)] * FULL]
+
+
+@pytest.mark.parametrize(("n", "k"), JOINTS)
 def test_peaks_are_those_away_from_singular_positions(n: int, k: int) -> None:
     sol = passing(n)
     angle = np.linspace(0, 2 * np.pi, 200_001)

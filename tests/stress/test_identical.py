@@ -24,12 +24,11 @@ def test_run_after_run(first: list[str]) -> None:
     assert len(set(first)) > DRAWN // 2
 
 
-@pytest.mark.parametrize("seed", ["0", "4711"])
-def test_in_another_process(first: list[str], seed: str) -> None:
+def test_in_another_process(first: list[str]) -> None:
     paths = os.pathsep.join(str(ROOT / name) for name in ("python", "tests"))
     told = subprocess.run(
         [sys.executable, "-m", "stress.fingerprint"],
-        env={**os.environ, "PYTHONPATH": paths, "PYTHONHASHSEED": seed},
+        env={**os.environ, "PYTHONPATH": paths, "PYTHONHASHSEED": "4711"},
         cwd=ROOT,
         check=True,
         capture_output=True,
@@ -39,6 +38,6 @@ def test_in_another_process(first: list[str], seed: str) -> None:
 
 
 def test_in_threads_side_by_side(first: list[str]) -> None:
-    with ThreadPoolExecutor(4) as pool:
-        for made in pool.map(lambda _: fingerprints(), range(4)):
+    with ThreadPoolExecutor(2) as pool:
+        for made in pool.map(lambda _: fingerprints(), range(2)):
             assert made == first

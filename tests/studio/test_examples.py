@@ -30,7 +30,7 @@ def text_of(path: Path) -> str:
 NAMES = [path.stem for path in sorted(EXAMPLES.glob("*.toml"))]
 
 
-@pytest.mark.parametrize("name", some(NAMES, 16))
+@pytest.mark.parametrize("name", some(NAMES, 8))
 def test_an_example_runs_in_the_page_as_in_python(one: Studio, tmp_path: Path, name: str) -> None:
     path = tmp_path / f"{name}.toml"
     path.write_text(text_of(EXAMPLES / path.name), encoding="utf-8")

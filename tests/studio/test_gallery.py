@@ -1,6 +1,5 @@
 """The gallery by mouse and keys: search, families, pictures that move, and the first visit."""
 
-import itertools
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -121,7 +120,7 @@ def test_a_family_is_chosen_by_a_click_and_left_by_another(gallery: Gallery, fam
     assert gallery.shown() == NAMES
 
 
-@pytest.mark.parametrize("name", some(NAMES, 12))
+@pytest.mark.parametrize("name", some(NAMES, 4))
 def test_a_picture_is_drawn_and_moves_under_the_pointer(gallery: Gallery, name: str) -> None:
     rest = gallery.drawn(name)
     gallery.card(name).hover()
@@ -213,8 +212,9 @@ def test_the_first_visit_opens_on_a_mechanism_that_moves(
     one = opened(browser, first=True, viewport={"width": 1280, "height": 800})
     one.wait("document.querySelector('#greeting') !== null")
     assert "Pull at a foot" in one.page.locator("#greeting").inner_text()
-    seen = positions(one, 4)
-    assert all(a != b for a, b in itertools.pairwise(seen))
+    for _ in range(3):  # a busy machine may draw no frame for a while
+        one.call("kempe.state().then(state => { window.before = `${state.q}` })")
+        one.wait("kempe.state().then(state => `${state.q}` !== window.before)")
     # a foot that is held slows the crank down, until it is let go
     free = one.quantity("crank.omega")
     one.page.keyboard.press("Space")

@@ -194,7 +194,7 @@ def test_what_is_not_possible_is_explained(
 
 
 def test_limits_that_cannot_hold_are_named(studio: Opener) -> None:
-    one, hands = opened(studio, CRANK)
+    one, hands = opened(studio, CRANK.replace("t_end = 0.2", "t_end = 0.02"))
     ask(hands, "motor.effort.rms", limits="piston.x.max >= 5")
     one.page.locator("#vary-r").check()
     ended(hands)

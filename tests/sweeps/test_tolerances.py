@@ -33,7 +33,7 @@ def test_first_order_and_worst_case(scale: float) -> None:
 
 def test_yield() -> None:
     """The share of a normal distribution below a limit, with a formula and a parameter."""
-    case, n = rest(), 4000
+    case, n = rest(), 1500
     ask = {"n": n, "seed": 5}
     found = kp.tolerances(case, {"F": 0.04}, "mass.x", subject_to="mass.x <= most", **ask)
     share = norm.cdf(2.0)  # 2 % are two standard deviations of 1 %
@@ -124,7 +124,7 @@ def test_sobol_indices_of_a_product() -> None:
     case = kp.Case(m, None, [kp.Equilibrium(name="rest")])
     sa, sb = 0.3, 0.4
     found = kp.tolerances(
-        case, {"a": sa, "b": sb, "idle": 0.5}, "slide.x", n=64, seed=2, sobol=2048
+        case, {"a": sa, "b": sb, "idle": 0.5}, "slide.x", n=64, seed=2, sobol=1024
     )
     square, fourth = 1 + sb**2, 1 + 6 * sb**2 + 3 * sb**4  # of b² and b⁴
     variance = (1 + sa**2) * fourth - square**2
@@ -139,8 +139,9 @@ def test_sobol_indices_of_a_product() -> None:
         assert share.first == pytest.approx(first, abs=0.03)
         assert share.total == pytest.approx(total, abs=0.03)
         assert share.first_error < 0.15 and share.total_error < 0.1
-    again = kp.tolerances(case, {"a": sa, "b": sb, "idle": 0.5}, "slide.x", n=8, seed=2, sobol=2048)
-    assert again.sobol == found.sobol
+    few = {"n": 8, "seed": 2, "sobol": 64}
+    first, again = (kp.tolerances(case, {"a": sa, "b": sb}, "slide.x", **few) for _ in range(2))
+    assert again.sobol == first.sobol
     assert not kp.tolerances(case, {"a": sa}, "slide.x", n=8).sobol
     with pytest.raises(kp.ModelError, match="sobol: 100; must be a power of two"):
         kp.tolerances(case, {"a": sa}, "slide.x", n=8, sobol=100)

@@ -74,7 +74,7 @@ def eliminated(places: Complexes, angles: Floats) -> int | None:
 
 def test_the_number_of_dyads_is_that_of_another_elimination() -> None:
     random, seen = np.random.default_rng(5), [0, 0, 0, 0, 0]
-    for _ in range(count(200, 1000)):
+    for _ in range(count(100, 1000)):
         size = 10.0 ** random.uniform(-3, 3)
         places = size * (random.normal(size=5) + 1j * random.normal(size=5))
         angles = random.uniform(-np.pi, np.pi, 5)
