@@ -207,7 +207,7 @@ def collected(
         complete or followed is not None,
     )
     made = [_candidate(bars, of, limits) for of in found]
-    return Found(made, complete, dict(excluded), task, poses, followed)
+    return Found(made, complete, dict(excluded), task, poses, followed=followed)
 
 
 def _candidate(bars: Bars, of: _core.RankedLinkage, limits: Limits) -> Candidate:

@@ -58,6 +58,7 @@ class Found(Sequence[Candidate]):
         excluded: Mapping[str, int],
         task: Complexes,
         poses: Sequence[Pose] | None = None,
+        *,
         followed: Followed | None = None,
     ) -> None:
         self._candidates = tuple(candidates)
@@ -95,7 +96,7 @@ class Found(Sequence[Candidate]):
         order = np.argsort(np.where(np.isfinite(values), values, np.inf), kind="stable")
         kept = [self._candidates[k] for k in order]
         return Found(
-            kept, self.complete, self.excluded, self.task, self.poses, self.followed
+            kept, self.complete, self.excluded, self.task, self.poses, followed=self.followed
         )
 
     def values(self, column: str) -> list[float]:

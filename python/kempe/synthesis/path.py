@@ -33,9 +33,10 @@ def path(
     Without angles, up to nine points can be exact. All solutions for nine points are found, by
     continuation from stored solutions of other points, and ``followed`` counts them. For fewer
     points, the method of Levenberg and Marquardt starts from four-bars through five of them, so
-    that solutions may be missing. More points are approximated by least squares. The search starts from four-bars of an atlas whose coupler
-    curves resemble the curve through the points, which is closed if its ends are as near as the
-    points. ``synthesis/src/path/`` contains the search.
+    that solutions may be missing. More points are approximated by least squares. The search starts
+    from four-bars of an atlas whose coupler curves resemble the curve through the points, which is
+    closed if its ends are as near as the points. ``synthesis/src/path/`` and
+    ``synthesis/src/nine/`` contain the searches.
 
     Args:
         points: x and y, m.
@@ -53,6 +54,32 @@ def path(
     Raises:
         ModelError: no four-bar was found, or an argument is invalid.
     """
+    return solved(
+        points,
+        family,
+        angles,
+        offsets=offsets,
+        pivots=pivots,
+        starts=starts,
+        seed=seed,
+        follows=True,
+        **limits,
+    )
+
+
+def solved(
+    points: Sequence[Sequence[Number]],
+    family: str = "four_bar",
+    angles: Sequence[Number] | None = None,
+    *,
+    offsets: str = "free",
+    pivots: Mapping[str, Sequence[Number]] | None = None,
+    starts: int | None = None,
+    seed: int = 0,
+    follows: bool,
+    **limits: Any,
+) -> Found:
+    """The same; ``follows`` says whether stored solutions are followed, which the studio lacks."""
     assemble.families(family)
     asked, places = assemble.limits(**limits), tasks.points(points)
     fixed = tasks.pivots(pivots, "O D")
@@ -62,8 +89,9 @@ def path(
         refuse("starts", f"{starts}; at least one")
     cranks = [] if angles is None else _angles(angles, len(places))
     either = angles is None and not fixed
+    follows = follows and either and starts is None
     bars, complete, followed = None, False, None
-    if either and starts is None and len(places) == 9:
+    if follows and len(places) == 9:
         bars, followed = nine.four_bars(places)
         complete = followed.found == followed.paths
     if bars is None or not len(bars.o):
@@ -71,7 +99,7 @@ def path(
             tasks.pairs_in(places), cranks, offsets == "free", tasks.both(fixed), starts, seed
         )
         bars, complete = assemble.traced(found, len(places)), complete or every
-    if either and starts is None and len(places) == 8 and bars.error.min() > _exact(places):
+    if follows and len(places) == 8 and bars.error.min() > _exact(places):
         bars = nine.through_eight(places) or bars
     return assemble.collected(
         bars, asked, either=either, complete=complete, task=places, followed=followed
