@@ -55,7 +55,7 @@ def test_the_source_of_nine_points_and_its_cognates_are_among_all_four_bars() ->
 
 
 def test_four_bars_through_eight_points_pass_them() -> None:
-    random = np.random.default_rng(800)
+    random = np.random.default_rng(803)
     bar, crank = drawn(random, 8)
     places, _ = bar.poses(crank)
     bars = nine.through_eight(places)

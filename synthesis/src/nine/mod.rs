@@ -20,8 +20,8 @@ pub use system::{Posture, Shifts};
 /// Four-bars of a general set of nine points, without cognates.
 pub const PATHS: usize = 1442;
 /// How a four-bar follows the points at first, and again if it was lost.
-const QUICK: Care = Care { tolerance: 3e-3, exact: false, most: 2000 };
-const CAREFUL: Care = Care { tolerance: 1e-5, exact: true, most: 20_000 };
+const QUICK: Care = Care { tolerance: 1e-2, exact: false, most: 2000 };
+const CAREFUL: Care = Care { tolerance: 1e-4, exact: true, most: 20_000 };
 /// More of them are lost only at special points, whose solutions are at infinity or not unique.
 const MANY: usize = PATHS / 10;
 /// Two solutions are the same, and a solution is real, within this share of their size.
@@ -105,14 +105,17 @@ impl NinePoints {
             if self.ended() {
                 break;
             }
+            let end = |start: &Posture, care| {
+                let end = followed(start, &self.base, &self.target, care);
+                end.filter(Posture::has_two_sides)
+            };
             if self.tried < PATHS {
                 let k = self.tried;
-                self.ends[k] = followed(&self.starts[k], &self.base, &self.target, QUICK);
+                self.ends[k] = end(&self.starts[k], QUICK);
             } else if let Some(again) = &self.again {
                 let k = again[self.tried - PATHS];
-                let mut all = self.starts[k].cognates(&self.base).into_iter();
-                let end = |start| followed(&start, &self.base, &self.target, CAREFUL);
-                self.ends[k] = all.find_map(end);
+                let all = self.starts[k].cognates(&self.base);
+                self.ends[k] = all.iter().find_map(|start| end(start, CAREFUL));
             }
             self.tried += 1;
             if self.tried == PATHS {

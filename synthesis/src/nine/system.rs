@@ -191,6 +191,13 @@ impl Posture {
         [*self, of(0), of(1)]
     }
 
+    /// Whether its sides differ. The same side twice solves the equations with any turns, and is no four-bar.
+    pub(super) fn has_two_sides(&self) -> bool {
+        let off = |k: usize| (self.bars[k] - self.bars[4 + k]).magnitude();
+        let differ = (0..4).any(|k| off(k) > 1e-8 * (1.0 + self.bars[k].magnitude()));
+        differ && self.pivots().iter().all(|z| z.magnitude().is_finite())
+    }
+
     /// The sums of the three ground pivots of a four-bar and its cognates, and of their mirror images. They are the same
     /// for cognates, and if the sides change places.
     pub fn pivots(&self) -> [Complex; 2] {

@@ -36,6 +36,17 @@ fn the_stored_four_bars_differ() {
 }
 
 #[test]
+fn the_same_side_twice_is_no_four_bar() {
+    let search = search();
+    assert!(search.starts.iter().all(Posture::has_two_sides));
+    let mut twice = search.starts[0];
+    (0..4).for_each(|k| twice.bars[4 + k] = twice.bars[k]);
+    assert!(!twice.has_two_sides());
+    twice.bars[4] = twice.bars[4] + Complex::new(1e-12, 0.0);
+    assert!(!twice.has_two_sides());
+}
+
+#[test]
 fn cognates_solve_the_same_equations() {
     let search = search();
     for start in search.starts.iter().step_by(50) {
