@@ -191,7 +191,7 @@ impl Posture {
         [*self, of(0), of(1)]
     }
 
-    /// Whether its sides differ. The same side twice solves the equations with any turns, and is no four-bar.
+    /// Whether its sides differ. The same side twice solves the equations with any turns, and is not a four-bar.
     pub(super) fn has_two_sides(&self) -> bool {
         let off = |k: usize| (self.bars[k] - self.bars[4 + k]).magnitude();
         let differ = (0..4).any(|k| off(k) > 1e-8 * (1.0 + self.bars[k].magnitude()));
