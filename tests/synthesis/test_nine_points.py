@@ -69,7 +69,8 @@ def test_four_bars_through_eight_points_pass_them() -> None:
 @only_full
 def test_a_public_example_has_all_solutions() -> None:
     found = kp.synthesis.path(EXAMPLE, defects="tell")
-    assert found.followed == kp.synthesis.Followed(paths=1442, found=1442, again=0, real=21)
+    assert found.followed is not None
+    assert (found.followed.found, found.followed.real) == (1442, 21)
     assert len(found) == 63
     assert "1442 of 1442" in repr(found)
     places = np.array(EXAMPLE) @ [1.0, 1.0j]

@@ -224,7 +224,7 @@ fn solved(rows: &mut [[Complex; N + 1]; N]) -> Option<[Complex; N]> {
         let (own, inverse) = (rows[k], pivot.reciprocal());
         for row in &mut rows[k + 1..] {
             let factor = row[k] * inverse;
-            (k + 1..=N).for_each(|j| row[j] = row[j] - factor * own[j]);
+            (k + 1..=N).for_each(|j| row[j] -= factor * own[j]);
         }
     }
     let mut x = [Complex::zero(); N];

@@ -42,7 +42,7 @@ fn the_same_side_twice_is_no_four_bar() {
     let mut twice = search.starts[0];
     (0..4).for_each(|k| twice.bars[4 + k] = twice.bars[k]);
     assert!(!twice.has_two_sides());
-    twice.bars[4] = twice.bars[4] + Complex::new(1e-12, 0.0);
+    twice.bars[4] += Complex::new(1e-12, 0.0);
     assert!(!twice.has_two_sides());
 }
 
