@@ -75,6 +75,13 @@ def path_four_bars(
     ``cranks`` are angles of the crank or none, ``offset`` says whether their origin is free.
     """
 
+def nine_point_four_bars(places: list[_Place], stored: bytes) -> tuple[Traces, list[int]]:
+    """All four-bars whose coupler point passes nine points, from a stored start.
+
+    The numbers are those of the four-bars that start, of different ends, of those that were
+    followed again, and of real ends.
+    """
+
 def near_poses(
     places: list[_Place], angles: list[float], pivots: tuple[_Place | None, ...], linkages: _F
 ) -> Traces:

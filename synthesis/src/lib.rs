@@ -10,6 +10,7 @@
 //! | `least_squares` | unknowns of a linkage and of its positions by the method of Levenberg and Marquardt |
 //! | `fit` | four-bars near a start that fit points, poses or crank angles |
 //! | `motion` | four-bars through two to five poses |
+//! | `nine` | all four-bars whose coupler point passes nine points, by continuation |
 //! | `pairs` | the residuals of four-bars at a pair of angles |
 //! | `path` | four-bars whose coupler point passes points |
 //! | `plane` | points and vectors as complex numbers |
@@ -26,6 +27,7 @@ mod fit;
 mod four_bar;
 mod least_squares;
 mod motion;
+mod nine;
 mod pairs;
 mod path;
 mod plane;
@@ -41,6 +43,7 @@ pub use dyads::{dyads, Dyad};
 pub use four_bar::FourBar;
 pub use least_squares::{least_squares, Fitted, Problem};
 pub use motion::{four_bars, pairs, FourBars, Poses};
+pub use nine::{followed, settled, Care, Followed, NinePoints, Posture, Shifts, PATHS};
 pub use pairs::Pairs;
 pub use path::PathSearch;
 pub use plane::{abs, angle};

@@ -75,6 +75,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "path_four_bars": lambda: _core.path_four_bars(
         [(0.0, 0.0), (1.0, 0.0)], [], True, (None, None), 1, 0
     ),
+    "nine_point_four_bars": lambda: _core.nine_point_four_bars([], b""),
     "near_poses": lambda: _core.near_poses([(0.0, 0.0)], [0.0], (None, None), np.zeros((0, 8))),
     "fit_pairs": lambda: _core.fit_pairs([], 1.0, [], [], [], 1),
     "Record.number": lambda: RECORD.number("count"),

@@ -115,6 +115,7 @@ fn add_drawing_and_sweeps(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(synthesis::four_bars, module)?)?;
     module.add_function(wrap_pyfunction!(synthesis::ranked_linkages, module)?)?;
     module.add_function(wrap_pyfunction!(synthesis::path_four_bars, module)?)?;
+    module.add_function(wrap_pyfunction!(synthesis::nine_point_four_bars, module)?)?;
     module.add_function(wrap_pyfunction!(synthesis::near_poses, module)?)?;
     module.add_function(wrap_pyfunction!(synthesis::fit_pairs, module)?)?;
     Ok(())

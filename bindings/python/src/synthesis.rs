@@ -5,7 +5,8 @@ use crate::guard::guard;
 use kempe::math::Complex;
 use kempe_synthesis::{
     conditions, least_squares, ranked, with_end, Choices, Dyad, End, Fitted, Grashof, Judged,
-    Limits, Linkage, Output, Pairs, PathSearch, Poses, Ranked, Refused, Traced, Wanted, TYPES,
+    Limits, Linkage, NinePoints, Output, Pairs, PathSearch, Poses, Ranked, Refused, Traced, Wanted,
+    TYPES,
 };
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -199,6 +200,28 @@ pub fn path_four_bars(
         let all = search.found();
         found(if all.is_empty() { Err(search.none()) } else { Ok(()) })?;
         Ok((traces(py, &all), search.complete()))
+    })
+}
+
+/// All four-bars whose coupler point passes nine points, from a stored start. The numbers are those of the four-bars that
+/// start, of different ends, of those that were followed again, and of real ends.
+#[pyfunction]
+#[pyo3(signature = (places, stored))]
+pub fn nine_point_four_bars(
+    py: Python<'_>,
+    places: Vec<[f64; 2]>,
+    stored: &[u8],
+) -> PyResult<(Traces, [usize; 4])> {
+    guard("nine_point_four_bars", || {
+        let search = NinePoints::new(&complexes(&places), stored);
+        let wrong = "nine places, and a start that examples/nine_points.rs makes";
+        let mut search = search.ok_or_else(|| PyValueError::new_err(wrong))?;
+        while !search.ended() {
+            py.check_signals()?;
+            search.advance(1);
+        }
+        let (all, count) = search.found();
+        Ok((traces(py, &all), [count.paths, count.found, count.again, count.real]))
     })
 }
 

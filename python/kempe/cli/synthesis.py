@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -121,6 +122,7 @@ def _summary(found: Found) -> dict[str, Any]:
     """The candidates in SI units and rad."""
     return {
         "complete": found.complete,
+        "followed": found.followed and asdict(found.followed),
         "excluded": dict(found.excluded),
         "candidates": [
             {

@@ -18,7 +18,7 @@ from kempe.synthesis.burmester import Burmester, burmester
 from kempe.synthesis.candidate import Candidate
 from kempe.synthesis.cognates import cognates
 from kempe.synthesis.dyads import dyads
-from kempe.synthesis.found import Found
+from kempe.synthesis.found import Followed, Found
 from kempe.synthesis.function import function
 from kempe.synthesis.motion import motion
 from kempe.synthesis.path import path
@@ -28,6 +28,7 @@ from kempe.synthesis.slider import SliderCrank
 __all__ = [
     "Burmester",
     "Candidate",
+    "Followed",
     "Found",
     "SliderCrank",
     "burmester",

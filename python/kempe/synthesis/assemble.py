@@ -17,7 +17,7 @@ from kempe.model.values import Number, refuse
 from kempe.synthesis import tasks
 from kempe.synthesis.candidate import TYPES, Candidate, masses_of
 from kempe.synthesis.dyads import Dyads
-from kempe.synthesis.found import Found
+from kempe.synthesis.found import Followed, Found
 from kempe.synthesis.slider import SliderCrank
 from kempe.synthesis.tasks import Complexes
 
@@ -169,7 +169,14 @@ class Slides(Bars):
 
 
 def collected(
-    bars: Bars, limits: Limits, *, either: bool, complete: bool, task: Complexes, poses: Any = None
+    bars: Bars,
+    limits: Limits,
+    *,
+    either: bool,
+    complete: bool,
+    task: Complexes,
+    poses: Any = None,
+    followed: Followed | None = None,
 ) -> Found:
     """The result of a task: all solutions without defects, or the best of many samples.
 
@@ -180,6 +187,7 @@ def collected(
         complete: whether these are all solutions.
         task: places of the point.
         poses: the poses, if there are any.
+        followed: numbers of complex solutions; all four-bars are kept if it is given.
     """
     grashof = limits.grashof
     asked = (
@@ -191,10 +199,15 @@ def collected(
     )
     slides = isinstance(bars, Slides)
     found, excluded = _core.ranked_linkages(
-        bars.numbers(), bars.error.tolist(), slides, asked, either, complete
+        bars.numbers(),
+        bars.error.tolist(),
+        slides,
+        asked,
+        either,
+        complete or followed is not None,
     )
     made = [_candidate(bars, of, limits) for of in found]
-    return Found(made, complete, dict(excluded), task, poses)
+    return Found(made, complete, dict(excluded), task, poses, followed=followed)
 
 
 def _candidate(bars: Bars, of: _core.RankedLinkage, limits: Limits) -> Candidate:

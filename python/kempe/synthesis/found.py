@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, overload
 
@@ -15,6 +16,24 @@ from kempe.errors import KempeError, ModelError
 from kempe.sweeps.asked import plan_of
 from kempe.synthesis.candidate import Candidate
 from kempe.synthesis.tasks import Complexes, Pose
+
+
+@dataclass(frozen=True)
+class Followed:
+    """The complex solutions that a search through nine points followed to their ends.
+
+    Attributes:
+        paths: those that start, as many as theory gives. Cognates are not counted.
+        found: different ends; if there are as many as starts, none is missing.
+        again: those that were lost at first, and followed again with smaller steps; none if so many
+            were lost that the points are special.
+        real: ends that are real four-bars.
+    """
+
+    paths: int
+    found: int
+    again: int
+    real: int
 
 
 @explain_methods
@@ -29,6 +48,7 @@ class Found(Sequence[Candidate]):
         excluded: the number of candidates left out because of each defect or limit.
         task: places of the point in the task, complex x + iy.
         poses: the poses of the task; None for other tasks.
+        followed: numbers of complex solutions of nine points; None for other tasks.
     """
 
     def __init__(
@@ -38,11 +58,13 @@ class Found(Sequence[Candidate]):
         excluded: Mapping[str, int],
         task: Complexes,
         poses: Sequence[Pose] | None = None,
+        *,
+        followed: Followed | None = None,
     ) -> None:
         self._candidates = tuple(candidates)
         self.complete = complete
         self.excluded = MappingProxyType(dict(excluded))
-        self.task, self.poses = task, poses
+        self.task, self.poses, self.followed = task, poses, followed
 
     @overload
     def __getitem__(self, k: int) -> Candidate: ...
@@ -73,7 +95,9 @@ class Found(Sequence[Candidate]):
         values = self.values(column)
         order = np.argsort(np.where(np.isfinite(values), values, np.inf), kind="stable")
         kept = [self._candidates[k] for k in order]
-        return Found(kept, self.complete, self.excluded, self.task, self.poses)
+        return Found(
+            kept, self.complete, self.excluded, self.task, self.poses, followed=self.followed
+        )
 
     def values(self, column: str) -> list[float]:
         """A column of sweeps for each candidate; NaN where its motion fails."""
@@ -121,7 +145,10 @@ class Found(Sequence[Candidate]):
         told = f"{len(self)} candidate{'' if len(self) == 1 else 's'}"
         told += "; there are no others" if self.complete and not self.excluded else ""
         left = ", ".join(f"{count} by {kind}" for kind, count in self.excluded.items())
-        return f"<Found: {told}{f'; excluded: {left}' if left else ''}>"
+        told += f"; excluded: {left}" if left else ""
+        if self.followed is not None:
+            told += f"; {self.followed.found} of {self.followed.paths} complex solutions found"
+        return f"<Found: {told}>"
 
 
 def _read(candidate: Candidate, column: str) -> float:

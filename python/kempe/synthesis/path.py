@@ -9,8 +9,9 @@ from kempe import _core
 from kempe.base.arguments import explained
 from kempe.model.given import value
 from kempe.model.values import Number, refuse
-from kempe.synthesis import assemble, tasks
+from kempe.synthesis import assemble, nine, tasks
 from kempe.synthesis.found import Found
+from kempe.synthesis.tasks import Complexes
 
 
 @explained
@@ -29,11 +30,13 @@ def path(
 
     With crank angles, all solutions for five points are found, by elimination. Fewer points leave
     choices, which are sampled; up to four can be exact if the angles are measured from the x axis.
-    Without angles, up to nine points can be exact: the method of Levenberg and Marquardt starts
-    from four-bars through five of the points, so that solutions may be missing. More points are
-    approximated by least squares. The search starts from four-bars of an atlas whose coupler
-    curves resemble the curve through the points, which is closed if its ends are as near as the
-    points. ``synthesis/src/path/`` contains the search.
+    Without angles, up to nine points can be exact. All solutions for nine points are found, by
+    continuation from stored solutions of other points, and ``followed`` counts them. For fewer
+    points, the method of Levenberg and Marquardt starts from four-bars through five of them, so
+    that solutions may be missing. More points are approximated by least squares. The search starts
+    from four-bars of an atlas whose coupler curves resemble the curve through the points, which is
+    closed if its ends are as near as the points. ``synthesis/src/path/`` and
+    ``synthesis/src/nine/`` contain the searches.
 
     Args:
         points: x and y, m.
@@ -42,7 +45,8 @@ def path(
         offsets: "free" if only differences of the angles count, "fixed" if they are measured from
             the x axis.
         pivots: fixed ground pivots, ``{"O": (x, y), "D": (x, y)}``, m; O belongs to the crank.
-        starts: number of starts; None for as many as the task usually needs.
+        starts: number of starts; None for as many as the task usually needs. With a number, nine
+            points are searched from starts, too.
         seed: of samples and starts.
         limits: ``defects``, ``transmission_angle``, ``grashof``, ``within``, ``direction`` and
             ``masses``; ``limits`` describes them.
@@ -50,6 +54,32 @@ def path(
     Raises:
         ModelError: no four-bar was found, or an argument is invalid.
     """
+    return solved(
+        points,
+        family,
+        angles,
+        offsets=offsets,
+        pivots=pivots,
+        starts=starts,
+        seed=seed,
+        follows=True,
+        **limits,
+    )
+
+
+def solved(
+    points: Sequence[Sequence[Number]],
+    family: str = "four_bar",
+    angles: Sequence[Number] | None = None,
+    *,
+    offsets: str = "free",
+    pivots: Mapping[str, Sequence[Number]] | None = None,
+    starts: int | None = None,
+    seed: int = 0,
+    follows: bool,
+    **limits: Any,
+) -> Found:
+    """The same; ``follows`` says whether stored solutions are followed, which the studio lacks."""
     assemble.families(family)
     asked, places = assemble.limits(**limits), tasks.points(points)
     fixed = tasks.pivots(pivots, "O D")
@@ -58,12 +88,27 @@ def path(
     if starts is not None and starts < 1:
         refuse("starts", f"{starts}; at least one")
     cranks = [] if angles is None else _angles(angles, len(places))
-    found, complete = _core.path_four_bars(
-        tasks.pairs_in(places), cranks, offsets == "free", tasks.both(fixed), starts, seed
-    )
-    bars = assemble.traced(found, len(places))
     either = angles is None and not fixed
-    return assemble.collected(bars, asked, either=either, complete=complete, task=places)
+    follows = follows and either and starts is None
+    bars, complete, followed = None, False, None
+    if follows and len(places) == 9:
+        bars, followed = nine.four_bars(places)
+        complete = followed.found == followed.paths
+    if bars is None or not len(bars.o):
+        found, every = _core.path_four_bars(
+            tasks.pairs_in(places), cranks, offsets == "free", tasks.both(fixed), starts, seed
+        )
+        bars, complete = assemble.traced(found, len(places)), complete or every
+    if follows and len(places) == 8 and bars.error.min() > _exact(places):
+        bars = nine.through_eight(places) or bars
+    return assemble.collected(
+        bars, asked, either=either, complete=complete, task=places, followed=followed
+    )
+
+
+def _exact(places: Complexes) -> float:
+    """The error below which a four-bar is exact, m."""
+    return 1e-10 * tasks.size(places)
 
 
 def _angles(given: Sequence[Number], n: int) -> list[float]:

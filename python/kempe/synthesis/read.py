@@ -14,6 +14,7 @@ from kempe.synthesis.found import Found
 from kempe.synthesis.function import function
 from kempe.synthesis.motion import motion
 from kempe.synthesis.path import path as path_of
+from kempe.synthesis.path import solved
 
 if TYPE_CHECKING:
     from kempe.case import Case
@@ -68,8 +69,9 @@ _LISTS = {"motion": "poses", "path": "points", "function": "pairs"}
 def from_case(case: Case, **options: Any) -> Found:
     """Solve the task of the section ``[synthesis]`` of a case.
 
-    The candidates are those that the studio shows for this section. ``choice`` of the section is
-    the number, from 1, of the candidate whose bodies the case has.
+    ``choice`` of the section is the number, from 1, of the candidate whose bodies the case has.
+    With it, the candidates are those that the studio shows for this section, so that nine points
+    may have more of them without.
 
     Args:
         case: the case.
@@ -82,11 +84,11 @@ def from_case(case: Case, **options: Any) -> Found:
     if not case.synthesis:
         hint = 'write [synthesis] with task = "motion" and poses, or use kp.synthesis.motion'
         raise ModelError("the case has no section [synthesis]", hint=hint)
-    section.pop("choice", None)
+    chosen = section.pop("choice", None) is not None
     task = str(section.pop("task"))
     given = section.pop(_LISTS[task])
     if task == "motion":
         return motion(given, **section)
     if task == "function":
         return function([tuple(row) for row in given], **section)
-    return path_of(given, **section)
+    return solved(given, follows=False, **section) if chosen else path_of(given, **section)
