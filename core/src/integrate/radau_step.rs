@@ -23,6 +23,8 @@ use crate::math::{indexed, Complex, Field, ShortArray};
 
 /// Relative size of velocity corrections that are rounding errors, compared with the largest velocity.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Part of the tolerance that counts for unknowns on which others depend.
+const EARLIER: f64 = 0.1;
 /// Number of rows of the continuous extension: v at the beginning and at the stages, the derivatives at the stages,
 /// and the jump of a projection.
 pub(super) const ROWS: usize = 8;
@@ -99,7 +101,7 @@ impl RadauStep {
     }
 
     /// Solves for the stages of a step.
-    pub fn advance<Y: Dae>(
+    pub fn advance<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
@@ -116,12 +118,25 @@ impl RadauStep {
             self.factored = Some(h);
         }
         self.predict(h);
-        self.newton(system, (t, h), scale, enough)
+        let parts = system.system.parts();
+        let (mut most, mut slowest) = (0, 0.0_f64);
+        for part in 0..parts {
+            system.system.begin_part(part);
+            let tolerance = enough.tolerance * if part + 1 < parts { EARLIER } else { 1.0 };
+            let enough = NewtonLimits { tolerance, ..enough };
+            match self.newton(system, (t, h), scale, enough) {
+                NewtonOutcome::Converged(iterations, rate) => {
+                    (most, slowest) = (most.max(iterations), slowest.max(rate));
+                }
+                other => return other,
+            }
+        }
+        NewtonOutcome::Converged(most, slowest)
     }
 
     /// Computes the tangent at the beginning of the step, but with the positions at its middle. Because bodies
     /// rotate, this makes the iteration converge twice as fast.
-    pub fn linearize<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64, h: f64) {
+    pub fn linearize<Y: Dae + ?Sized>(&mut self, system: &mut CountedDae<'_, Y>, t: f64, h: f64) {
         let ImplicitState { q, v, .. } = &self.start;
         self.dq.iter_mut().zip(q.iter().zip(v)).for_each(|(mid, (q, v))| *mid = q + 0.5 * h * v);
         system.linearize(t + 0.5 * h, Iterate { q: &self.dq, ..self.start.iterate() });
@@ -154,7 +169,7 @@ impl RadauStep {
         }
     }
 
-    fn newton<Y: Dae>(
+    fn newton<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
@@ -212,7 +227,11 @@ impl RadauStep {
     }
 
     /// Computes the residuals and powers of all stages.
-    pub fn evaluate<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, (t, h): (f64, f64)) {
+    pub fn evaluate<Y: Dae + ?Sized>(
+        &mut self,
+        system: &mut CountedDae<'_, Y>,
+        (t, h): (f64, f64),
+    ) {
         let (n, states) = (self.dq.len(), self.start.z.len());
         for ((stage, residual), c) in self.stages.iter_mut().zip(&mut self.residuals).zip(C) {
             let ImplicitState { q, v, a, lam, z, dz, powers } = stage;
@@ -225,7 +244,7 @@ impl RadauStep {
     }
 
     /// Corrects the stages by one iteration. Returns the norm of the correction.
-    fn correct<Y: Dae>(
+    fn correct<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         h: f64,
@@ -295,7 +314,7 @@ impl RadauStep {
     /// The estimated error of the step relative to its tolerance. It is the difference from an embedded method of
     /// order 3, filtered by the real matrix (IV.8.19 and IV.8.20 of the book). With `again`, the estimate is repeated
     /// from the start moved by the first estimate. A stiff start requires this.
-    pub fn error<Y: Dae>(
+    pub fn error<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),

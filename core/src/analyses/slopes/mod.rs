@@ -6,7 +6,8 @@
 //! | file | concept |
 //! |---|---|
 //! | `variables` | parameters and start values as numbers with derivatives |
-//! | `ode` | the equations of motion together with their derivatives |
+//! | `ode`, `dae` | the equations of motion together with their derivatives, for explicit and for implicit methods |
+//! | `stepper` | the stepper of the derivatives |
 //! | `run_ends` | the end of a run, its states and their scales |
 //! | `starts` | the derivatives of a start |
 //! | `triggers` | the functions whose zeros change a motion |
@@ -33,6 +34,7 @@ mod at_outputs;
 mod at_rest;
 mod at_times;
 mod by_state;
+mod dae;
 mod dissipation;
 mod driven;
 mod equilibrium;
@@ -49,6 +51,7 @@ mod run_ends;
 mod spectrum;
 mod starts;
 mod statistics;
+mod stepper;
 mod triggers;
 mod turning;
 mod variables;
