@@ -22,6 +22,8 @@ pub struct DaeLengths {
     pub states: usize,
     /// Number of quadratures.
     pub quadratures: usize,
+    /// Number of columns of equal length of which each part consists, for instance the motion and its derivatives.
+    pub columns: usize,
 }
 
 impl DaeLengths {

@@ -13,12 +13,14 @@
 //! Differential Equations II*, IV.8 and VII.6). The condition number does not grow as h decreases. The order is 5 for
 //! q and v, and 3 for λ.
 
-use super::dae::{ConstraintLevel, Dae, DaeLengths, DaeResidual, Iterate, NewtonCoefficients};
+use super::dae::{ConstraintLevel, Dae, DaeLengths, DaeResidual, Iterate};
 use super::error_weights::ErrorWeights;
 use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
 use super::implicit_state::{serves, ImplicitState};
-use super::radau_coefficients::{dot, lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
+use super::radau_coefficients::{
+    coefficients, complex_step, dot, lagrange, A, C, ERROR, INVERSE, REAL, T, T_INVERSE,
+};
 use crate::math::{indexed, Complex, Field, ShortArray};
 
 /// Relative size of velocity corrections that are rounding errors, compared with the largest velocity.
@@ -69,6 +71,8 @@ pub(super) struct RadauStep {
     /// Whether the tangent was computed for this step.
     pub fresh: bool,
     factored: Option<f64>,
+    /// Number of columns of each part of the state.
+    columns: usize,
 }
 
 impl RadauStep {
@@ -92,6 +96,7 @@ impl RadauStep {
             along: vec![0.0; n],
             fresh: false,
             factored: None,
+            columns: lengths.columns,
         }
     }
 
@@ -118,15 +123,13 @@ impl RadauStep {
             self.factored = Some(h);
         }
         self.predict(h);
-        let parts = system.system.parts();
-        let (mut most, mut slowest) = (0, 0.0_f64);
+        let (parts, mut most, mut slowest) = (system.system.parts(), 0, 0.0_f64);
         for part in 0..parts {
             system.system.begin_part(part);
             let tolerance = enough.tolerance * if part + 1 < parts { EARLIER } else { 1.0 };
-            let enough = NewtonLimits { tolerance, ..enough };
-            match self.newton(system, (t, h), scale, enough) {
-                NewtonOutcome::Converged(iterations, rate) => {
-                    (most, slowest) = (most.max(iterations), slowest.max(rate));
+            match self.newton(system, (t, h), scale, NewtonLimits { tolerance, ..enough }) {
+                NewtonOutcome::Converged(count, rate) => {
+                    (most, slowest) = (most.max(count), slowest.max(rate));
                 }
                 other => return other,
             }
@@ -300,12 +303,14 @@ impl RadauStep {
         (sum / 3.0_f64).sqrt()
     }
 
-    /// The norm of corrections that contain only rounding errors: of v relative to the largest velocity, of z to its
-    /// own size.
+    /// The norm of corrections that contain only rounding errors: of v relative to the largest velocity of its column, of
+    /// z to its own size.
     fn rounding(&self, scale: &ErrorWeights) -> f64 {
         let (n, end) = (self.dq.len(), &self.stages[2]);
-        let largest = end.v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let sizes = std::iter::repeat_n(largest, n).chain(end.z.iter().map(|z| z.abs()));
+        let largest = |v: &[f64]| v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let columns = end.v.chunks((n / self.columns).max(1));
+        let sizes = columns.flat_map(|v| std::iter::repeat_n(largest(v), v.len()));
+        let sizes = sizes.chain(end.z.iter().map(|z| z.abs()));
         let parts = sizes.zip(&scale.weights[n..]).filter(|(_, w)| **w > 0.0);
         let sum: f64 = parts.map(|(x, w)| (ROUNDING * x / w) * (ROUNDING * x / w)).sum();
         (sum / scale.weights.len().max(1) as f64).sqrt()
@@ -393,23 +398,4 @@ impl RadauStep {
         self.h_before = Some(h);
         self.fresh = false;
     }
-}
-
-/// Coefficients of the matrix for an eigenvalue. `step` is h divided by the eigenvalue.
-fn coefficients<F: Field>(step: F) -> NewtonCoefficients<F> {
-    NewtonCoefficients {
-        mass: F::one(),
-        damping: step,
-        stiffness: step * step,
-        rate: step,
-        state_force: step,
-        state_velocity: step,
-        state_position: step * step,
-        state_rate: step,
-    }
-}
-
-/// h divided by the complex eigenvalue.
-fn complex_step(h: f64) -> Complex {
-    Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h)
 }

@@ -85,6 +85,7 @@ impl Dae for MotionDae<'_> {
             multipliers: layout.n_rows,
             states: layout.n_z,
             quadratures: layout.n_works,
+            columns: 1,
         }
     }
 

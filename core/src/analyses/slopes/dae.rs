@@ -158,6 +158,7 @@ impl Dae for SlopeOde {
             multipliers: count * layout.n_rows,
             states: count * layout.n_z,
             quadratures: count * layout.n_works,
+            columns: count,
         }
     }
 

@@ -23,8 +23,7 @@ use std::sync::Arc;
 const TOLERANCES: [f64; 2] = [1e-7, 1e-12];
 /// Absolute tolerance, as a part of the relative one and of the scale.
 const ABSOLUTE: f64 = 1e-3;
-/// Number of steps of an implicit method after which the derivatives take the state of the run. Each time, the method
-/// begins anew.
+/// Number of steps of an implicit method after which it begins anew at the state of the run.
 const APART: f64 = 8.0;
 
 /// The equations of the model of a phase, for blocks of variables.
@@ -196,9 +195,9 @@ impl<'a> MotionSlopes<'a> {
     /// Continues from the present state, to the end of as many steps of the run as fit into one step, or into some of an
     /// implicit method.
     fn go_on(&mut self) -> Result<(), String> {
-        let (t, ends, step) = (&self.steps.t, self.steps.t.len() - 1, self.step);
-        let (begin, mut last) = (t[step], self.corner().unwrap_or(t[ends]));
-        if step == ends || begin == last {
+        let (t, step) = (&self.steps.t, self.step);
+        let (begin, mut last) = (t[step], self.corner().unwrap_or(t[t.len() - 1]));
+        if step + 1 == t.len() || begin == last {
             return Ok(());
         }
         let is_implicit = self.asked.run.implicit.get(step) == Some(&true);
