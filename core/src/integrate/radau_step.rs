@@ -9,9 +9,8 @@
 //! [ Φ_q + h/μ B             0   ] [ h/μ Δλ ] = - [  Φ̇   ]
 //! ```
 //!
-//! They are solved once with the real and once with the complex eigenvalue (Hairer and Wanner, *Solving Ordinary
-//! Differential Equations II*, IV.8 and VII.6). The condition number does not grow as h decreases. The order is 5 for
-//! q and v, and 3 for λ.
+//! They are solved with the real and with the complex eigenvalue (Hairer and Wanner, *Solving Ordinary Differential
+//! Equations II*, IV.8 and VII.6). The condition number does not grow as h decreases. q and v have order 5, λ has 3.
 
 use super::dae::{ConstraintLevel, Dae, DaeLengths, DaeResidual, Iterate};
 use super::error_weights::ErrorWeights;

@@ -16,7 +16,11 @@ use crate::integrate::{
     Ode,
 };
 use crate::math::{Complex, Field, Listed, Real, ShortArray};
+use crate::model::usual_energy;
 use crate::solve::Breakdown;
+
+/// Part of the energy of a usual motion below which errors of works do not shorten steps.
+const LEAST: f64 = 1e-3;
 
 /// The columns of an implicit method.
 pub(super) struct SlopeColumns {
@@ -234,6 +238,12 @@ impl Dae for SlopeOde {
         let [lam, z, _] = columns.first([at.lam, at.z, &[]]);
         workspace.motions.place(&model.layout, q, v);
         motion.1.linearize(model, &workspace.motions, t, [a, lam, z]);
+    }
+
+    /// The largest of the works, of their derivatives, and of a small part of the energy of a usual motion.
+    fn quadrature_scale(&self, works: &[f64]) -> Option<f64> {
+        let least = LEAST * usual_energy(&self.model);
+        Some(works.iter().fold(least, |most, work| most.max(work.abs())))
     }
 
     fn factor(&mut self, coefficients: NewtonCoefficients) -> bool {

@@ -9,9 +9,15 @@ use crate::solve::Breakdown;
 /// Largest number of steps.
 const MOST: usize = 1_000_000;
 
+/// Least relative tolerance of the implicit method. Its error of order 5 is far below the estimate of order 3, and below
+/// this tolerance the estimate has rounding errors.
+const LEAST: f64 = 1e-10;
+
 /// Integrates the motion with its derivatives.
 pub(super) struct SlopeStepper {
     control: StepControl,
+    /// The span and the state from which the steps continue.
+    begun: ((f64, f64), Vec<f64>),
     explicit: BoxedStepper<SlopeOde, Breakdown>,
     /// While an implicit method takes the steps.
     implicit: Option<BoxedStepper<dyn Dae<Stop = Breakdown>, Breakdown>>,
@@ -33,7 +39,7 @@ impl SlopeStepper {
             ..StepControl::new(rtol, 0.0)
         };
         let explicit = Dop853 { control: control.clone() }.start(ode, span, y)?;
-        Ok(Self { control, explicit, implicit: None })
+        Ok(Self { control, begun: (span, y.to_vec()), explicit, implicit: None })
     }
 
     /// The time reached.
@@ -77,11 +83,18 @@ impl SlopeStepper {
         }
     }
 
+    /// Takes a step. Where the implicit method finds none, as by rounding errors of large forces, the explicit one begins
+    /// again.
     pub fn step(&mut self, ode: &mut SlopeOde) -> Outcome<()> {
-        match &mut self.implicit {
-            Some(implicit) => implicit.step(ode),
-            None => self.explicit.step(ode),
+        if let Some(implicit) = &mut self.implicit {
+            if implicit.step(ode).is_ok() {
+                return Ok(());
+            }
+            self.implicit = None;
+            let (span, y) = &self.begun;
+            self.explicit.restart_until(span.0, y, span.1)?;
         }
+        self.explicit.step(ode)
     }
 
     /// Continues with other equations.
@@ -103,6 +116,7 @@ impl SlopeStepper {
         y: &[f64],
         first: Option<f64>,
     ) -> Outcome<()> {
+        self.begun = (span, y.to_vec());
         let Some(first) = first else {
             self.implicit = None;
             return self.explicit.restart_until(span.0, y, span.1);
@@ -111,9 +125,11 @@ impl SlopeStepper {
         if let Some(implicit) = &mut self.implicit {
             return implicit.restart_until(span.0, &y, span.1);
         }
-        let mut control = StepControl { first_step: Some(first), ..self.control.clone() };
+        let rtol = self.control.rtol.max(LEAST);
+        let mut control = StepControl { rtol, first_step: Some(first), ..self.control.clone() };
         if let Atol::Each(atol) = &mut control.atol {
             *atol = ode.columns.in_parts(atol);
+            atol.iter_mut().for_each(|atol| *atol *= rtol / self.control.rtol);
             atol.truncate(ode.lengths().controlled());
         }
         let system: &dyn Dae<Stop = Breakdown> = ode;
