@@ -95,15 +95,17 @@ def flail(method: Method) -> kp.Case:
 
 
 @pytest.mark.parametrize(
-    ("make", "measures"),
+    ("make", "method", "measures"),
     [
-        (cantilever, ["beam.B.y.final", "clamp.torque.max", "beam.B.y.mean"]),
-        (damped_floor, ["floor.force.max", "mass.y.final", "mass.y.mean"]),
-        (flail, ["rod.angle.final", "tip.omega.final", "energy.dissipated.final"]),
+        (cantilever, kp.Auto(), ["beam.B.y.final", "clamp.torque.max", "beam.B.y.mean"]),
+        (damped_floor, kp.Auto(), ["floor.force.max", "mass.y.final", "mass.y.mean"]),
+        (flail, radau(1e-8), ["rod.angle.final", "tip.omega.final", "energy.dissipated.final"]),
     ],
 )
-def test_stiff_mechanisms(make: Callable[[Method], kp.Case], measures: list[str]) -> None:
-    case = make(kp.Auto())
+def test_stiff_mechanisms(
+    make: Callable[[Method], kp.Case], method: Method, measures: list[str]
+) -> None:
+    case = make(method)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         g = kp.gradient(case, measures, list(case.model.parameters))
@@ -112,8 +114,8 @@ def test_stiff_mechanisms(make: Callable[[Method], kp.Case], measures: list[str]
     assert np.max(np.abs(g.jacobian - true) / scales(g)) < 1e-6
 
 
-def test_a_snap_takes_about_as_many_steps_as_its_run() -> None:
-    """Explicit steps would need 1e8 of them."""
+def test_a_snap() -> None:
+    """Explicit steps would be 1e8."""
     case = kp.load(EXAMPLES / "bistable_switch.toml").with_analysis("snap", t_end=0.1)
     g = kp.gradient(case, ["push.effort.final"], ["E"])
     # at rest at a given position, forces are in proportion to the modulus
