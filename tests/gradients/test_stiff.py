@@ -56,7 +56,7 @@ def cantilever(method: Method) -> kp.Case:
     section = {"rectangle": ["h", "20 mm"]}
     m.beam("beam", length="L", section=section, young="E", density=2700, damping=1e-4, elements=2)
     m.weld("clamp", "ground.O", "beam.A")
-    return kp.Case(m, {}, [kp.Dynamics(t_end=0.012, output_step=0.003, method=method)])
+    return kp.Case(m, {}, [kp.Dynamics(t_end=0.006, output_step=0.002, method=method)])
 
 
 def damped_floor(method: Method) -> kp.Case:
@@ -116,7 +116,7 @@ def test_stiff_mechanisms(
 
 def test_a_snap() -> None:
     """Explicit steps would be 1e8."""
-    case = kp.load(EXAMPLES / "bistable_switch.toml").with_analysis("snap", t_end=0.1)
+    case = kp.load(EXAMPLES / "bistable_switch.toml").with_analysis("snap", t_end=0.05)
     g = kp.gradient(case, ["push.effort.final"], ["E"])
     # at rest at a given position, forces are in proportion to the modulus
     share = g["push.effort.final", "E"] * g.variables["E"] / g.measures["push.effort.final"]

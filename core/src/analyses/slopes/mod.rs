@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `variables` | parameters and start values as numbers with derivatives |
 //! | `ode`, `dae` | the equations of motion together with their derivatives, for explicit and for implicit methods |
+//! | `columns` | the layout of states with derivatives |
 //! | `stepper` | the stepper of the derivatives |
 //! | `run_ends` | the end of a run, its states and their scales |
 //! | `starts` | the derivatives of a start |
@@ -34,6 +35,7 @@ mod at_outputs;
 mod at_rest;
 mod at_times;
 mod by_state;
+mod columns;
 mod dae;
 mod dissipation;
 mod driven;

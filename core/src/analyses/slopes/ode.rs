@@ -1,13 +1,13 @@
 //! The equations of motion together with their derivatives, as one system of differential equations.
 
-use super::dae::SlopeColumns;
+use super::columns::{gather, SlopeColumns};
 use crate::analyses::dynamics::NewtonMatrix;
 use crate::elements::{Behaviour, Mode};
 use crate::equations::balance::Balance;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::equations::{forces, Gains, Workspace};
 use crate::integrate::Ode;
-use crate::math::{Dual, Listed, Real};
+use crate::math::{Listed, Real};
 use crate::model::{ForceItem, Model};
 use crate::solve::Breakdown;
 use std::sync::Arc;
@@ -133,17 +133,6 @@ impl SlopeOde {
             x.iter_mut().zip(&change).for_each(|(x, dx)| x.slope[place] += dx);
         }
         Ok(())
-    }
-}
-
-/// Reads a state with derivatives.
-pub(super) fn gather(n_y: usize, b: usize, y: &[f64], state: &mut [Slope]) {
-    for (k, x) in state.iter_mut().enumerate() {
-        let mut slope = [0.0; ABREAST];
-        for (place, slope) in slope.iter_mut().enumerate() {
-            *slope = y[n_y * (1 + ABREAST * b + place) + k];
-        }
-        *x = Dual { value: y[k], slope };
     }
 }
 
