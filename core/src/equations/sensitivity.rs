@@ -8,8 +8,8 @@
 use super::forces::{self, Acting};
 use super::kinematics::Motions;
 use super::powers::Powers;
-use super::{constraints, mass, reactions, reactive, Compiled, Gains, Workspace};
-use crate::math::{Dual, Listed, Real};
+use super::{constraints, mass, reactions, reactive, Compiled, Workspace};
+use crate::math::{Dual, Listed, Real, ShortArray};
 use crate::model::Model;
 use crate::solve::Breakdown;
 
@@ -56,17 +56,20 @@ pub struct Sensitivity {
     compiled: Compiled<Slope>,
     /// Φ_q at the last state.
     pub(super) jacobian: Vec<Slope>,
-    gamma: Vec<Slope>,
+    /// Φ, Φ_q v + Φ_t and γ at the last state.
+    terms: [Vec<Slope>; 3],
     applied: Vec<Slope>,
     /// (r, s), shape (n_q + n_rows).
     residual: Vec<Slope>,
-    depends: bool,
+    /// Whether forces, and forces or loads of joints depend on multipliers.
+    depends: [bool; 2],
 }
 
 impl Sensitivity {
     /// Memory for a model.
     pub fn new(model: Model<Slope>) -> Self {
         let (n, m, zero) = (model.layout.n_q, model.layout.n_rows, Slope::constant(0.0));
+        let depends = reactive::depends(&model);
         Self {
             motions: Motions::new(&model.layout),
             a: vec![zero; n],
@@ -74,10 +77,10 @@ impl Sensitivity {
             powers: Powers::zero(),
             compiled: Compiled::new(&model),
             jacobian: vec![zero; model.layout.n_entries],
-            gamma: vec![zero; m],
+            terms: [(); 3].each(|()| vec![zero; m]),
             applied: vec![zero; n],
             residual: vec![zero; n + m],
-            depends: reactive::depends(&model) || reactions::loaded(&model).next().is_some(),
+            depends: [depends, depends || reactions::loaded(&model).next().is_some()],
             model,
         }
     }
@@ -110,7 +113,7 @@ impl Sensitivity {
         self.lam.iter_mut().zip(workspace.lam()).for_each(|(lam, x)| *lam = Slope::constant(*x));
         let (mut last, mut x) = (f64::INFINITY, Vec::new());
         for turn in 0.. {
-            self.put_residual(t, state[2]);
+            self.put_residual(t, state[2], self.depends[1]);
             let (mut change, mut size) = (0.0_f64, 0.0_f64);
             for k in 0..ABREAST {
                 x.clear();
@@ -122,7 +125,7 @@ impl Sensitivity {
                 }
             }
             let relative = if change == 0.0 { 0.0 } else { change / size };
-            if !self.depends || relative <= SETTLED {
+            if !self.depends[1] || relative <= SETTLED {
                 return Ok(());
             }
             if turn > 2 && relative >= 0.5 * last || turn == MOST {
@@ -136,19 +139,37 @@ impl Sensitivity {
         }
     }
 
-    /// Computes Φ_q and γ at the state of the motions.
-    fn linearize(&mut self, t: Slope) {
-        let Self { model, motions, jacobian, gamma, .. } = self;
-        constraints::linearize(model, motions, t, Gains::default(), gamma, jacobian);
+    /// The residuals of implicit methods, r with shape (n_q) and Φ_q v + Φ_t with shape (n_rows), and the powers at any a
+    /// and λ. Loads of joints count if forces depend on reactions.
+    pub fn balance(
+        &mut self,
+        t: Slope,
+        [q, v, z]: [&[Slope]; 3],
+        [a, lam]: [&[Slope]; 2],
+    ) -> [&[Slope]; 2] {
+        self.motions.place(&self.model.layout, q, v);
+        self.linearize(t);
+        self.a.copy_from_slice(a);
+        self.lam.copy_from_slice(lam);
+        self.put_residual(t, z, self.depends[0]);
+        self.add_powers_of_drivers(v);
+        [&self.residual[..a.len()], &self.terms[1]]
     }
 
-    /// Computes (r, s) and the powers for the present a and λ.
-    fn put_residual(&mut self, t: Slope, z: &[Slope]) {
-        let Self { model, motions, a, lam, powers, compiled, jacobian, gamma, applied, .. } = self;
-        let known = self.depends.then_some(&lam[..]);
+    /// Computes Φ_q, Φ, Φ_q v + Φ_t and γ at the state of the motions.
+    fn linearize(&mut self, t: Slope) {
+        let Self { model, motions, jacobian, terms, .. } = self;
+        let terms = terms.each_mut().map(|terms| &mut terms[..]);
+        constraints::terms_and_jacobian(model, motions, t, terms, jacobian);
+    }
+
+    /// Computes (r, s) and the powers for the present a and λ, on which the forces depend if `depends`.
+    fn put_residual(&mut self, t: Slope, z: &[Slope], depends: bool) {
+        let Self { model, motions, a, lam, powers, compiled, jacobian, applied, .. } = self;
+        let known = depends.then_some(&lam[..]);
         let acting = Acting { z, lam: known, t };
         forces::generalized(model, compiled, motions, acting, applied, powers);
-        if self.depends {
+        if depends {
             reactions::add_loads(model, motions, t, lam, applied);
         }
         let (r, s) = self.residual.split_at_mut(a.len());
@@ -156,7 +177,8 @@ impl Sensitivity {
         mass::add_times(model, motions, a, r);
         constraints::add_transposed(model, jacobian, lam, r);
         constraints::times_all(model, jacobian, a, s);
-        s.iter_mut().zip(&*gamma).for_each(|(s, gamma)| *s -= *gamma);
+        let [.., gamma] = &self.terms;
+        s.iter_mut().zip(gamma).for_each(|(s, gamma)| *s -= *gamma);
     }
 
     /// Adds the powers of drivers, -λᵀ Φ_q q̇ over their rows, after [`respond`](Self::respond).

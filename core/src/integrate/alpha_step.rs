@@ -152,7 +152,7 @@ impl AlphaStep {
     }
 
     /// Factorises the matrix at the beginning of a step, for [`filter`](Self::filter).
-    pub fn factor_at_start<Y: Dae>(
+    pub fn factor_at_start<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         t: f64,
@@ -164,7 +164,7 @@ impl AlphaStep {
     }
 
     /// Computes the state at t + h into `end`. Returns whether Newton's iteration converged.
-    pub fn advance<Y: Dae>(
+    pub fn advance<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
@@ -212,7 +212,7 @@ impl AlphaStep {
         end.lam.copy_from_slice(&start.lam);
     }
 
-    fn newton<Y: Dae>(
+    fn newton<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
@@ -241,7 +241,7 @@ impl AlphaStep {
     }
 
     /// Corrects `end` by one iteration. Returns the norm of the correction.
-    fn correct<Y: Dae>(
+    fn correct<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         t: f64,
@@ -277,7 +277,7 @@ impl AlphaStep {
     }
 
     /// Computes the residuals at `end`: those of the forces and states into the first parts of x, and Φ into `rows`.
-    pub fn evaluate<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64) {
+    pub fn evaluate<Y: Dae + ?Sized>(&mut self, system: &mut CountedDae<'_, Y>, t: f64) {
         let (forces, rest) = self.x.split_at_mut(self.dv.len());
         let states = &mut rest[..self.end.z.len()];
         let ImplicitState { q, v, a, lam, z, dz, powers } = &mut self.end;
@@ -289,7 +289,7 @@ impl AlphaStep {
     /// from the last three accelerations. The parts normal to the constraints are removed, because the constraints
     /// prevent such errors. The error of z is estimated in the same way as that of v. Stiff motions are not filtered
     /// out, because oscillations of a enter q.
-    pub fn error<Y: Dae>(
+    pub fn error<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         h: f64,
@@ -343,7 +343,12 @@ impl AlphaStep {
 
     /// Solves for (x, y) with the right side (M x (1 - α_m)/(1 - α_f), y, 0), in place. The result contains the rates
     /// without those of stiff motions; Φ_q x = 0.
-    pub fn filter<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, x: &mut [f64], y: &mut [f64]) {
+    pub fn filter<Y: Dae + ?Sized>(
+        &mut self,
+        system: &mut CountedDae<'_, Y>,
+        x: &mut [f64],
+        y: &mut [f64],
+    ) {
         let n = x.len();
         let share = self.parameters.acceleration_share();
         self.dv.fill(0.0);
@@ -356,7 +361,7 @@ impl AlphaStep {
 
     /// Projects the end onto the constraints. Keeps the normal part of its velocities for the next step, which may
     /// have another length: a deviation that belongs to h would grow in longer steps.
-    pub fn project<Y: Dae>(
+    pub fn project<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),

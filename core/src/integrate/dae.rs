@@ -22,6 +22,8 @@ pub struct DaeLengths {
     pub states: usize,
     /// Number of quadratures.
     pub quadratures: usize,
+    /// Number of columns of equal length of which each part consists, for instance the motion and its derivatives.
+    pub columns: usize,
 }
 
 impl DaeLengths {
@@ -142,6 +144,17 @@ pub trait Dae {
         state: [&[f64]; 3],
         out: DaeRates<'_>,
     ) -> Result<(), Self::Stop>;
+
+    /// Number of parts of the unknowns that Newton's iteration solves one after the other. A part depends only on those
+    /// before it.
+    fn parts(&self) -> usize {
+        1
+    }
+
+    /// Begins the iteration of a part. [`residual`](Self::residual) is then zero for the other parts.
+    fn begin_part(&mut self, part: usize) {
+        let _ = part;
+    }
 
     /// Computes the residuals at an iterate.
     fn residual(&mut self, t: f64, at: Iterate<'_>, level: ConstraintLevel, out: DaeResidual<'_>);

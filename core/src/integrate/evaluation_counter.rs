@@ -12,12 +12,12 @@ use super::step_size::{initial_step, probing_step};
 use crate::math::{Complex, Listed, ShortArray};
 
 /// A DAE with the counts of its evaluations.
-pub(super) struct CountedDae<'a, Y> {
+pub(super) struct CountedDae<'a, Y: ?Sized> {
     pub system: &'a mut Y,
     pub counts: StepCounts,
 }
 
-impl<Y: Dae> CountedDae<'_, Y> {
+impl<Y: Dae + ?Sized> CountedDae<'_, Y> {
     /// Computes the derivative of a state.
     pub fn accelerate(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Cause<Y::Stop>> {
         self.counts.evaluations += 1;

@@ -74,7 +74,7 @@ impl AlphaProgress {
 
     /// Computes the powers at the end of the step. The multipliers of a step so short that its corrections are
     /// rounding errors are worthless; those of the accelerations at its end take their place.
-    fn set_powers<Y: Dae>(
+    fn set_powers<Y: Dae + ?Sized>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
@@ -98,7 +98,7 @@ impl AlphaProgress {
 }
 
 impl ImplicitMethod for GeneralizedAlpha {
-    fn start<Y: Dae>(
+    fn start<Y: Dae + ?Sized>(
         &self,
         system: &Y,
         span: (f64, f64),
@@ -123,7 +123,7 @@ impl ImplicitScheme for AlphaProgress {
         &HERMITE
     }
 
-    fn next<Y: Dae>(
+    fn next<Y: Dae + ?Sized>(
         stepper: &mut AlphaStepper,
         dae: &mut CountedDae<'_, Y>,
     ) -> Result<(), Cause<Y::Stop>> {
@@ -155,7 +155,10 @@ type AlphaStepper = ImplicitStepper<AlphaProgress>;
 impl AlphaStepper {
     /// Evaluates the derivative at the start, chooses the first step, and sets the initial deviations that order 2
     /// requires.
-    fn begin<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<StepSize, Cause<Y::Stop>> {
+    fn begin<Y: Dae + ?Sized>(
+        &mut self,
+        dae: &mut CountedDae<'_, Y>,
+    ) -> Result<StepSize, Cause<Y::Stop>> {
         let Self { method, control, scale, steps, .. } = self;
         let AlphaStep { start, end, .. } = &mut method.step;
         let first = dae.start(control, steps, (start, end), scale, ERROR_ORDER)?;
@@ -166,7 +169,7 @@ impl AlphaStepper {
     /// Sets a for t + Δ h and velocities that deviate from the constraints by h² C_q v̈. A difference of
     /// accelerations gives v̈. Its tangential part is filtered, so that stiff forces do not make it large. The states
     /// z are treated in the same way.
-    fn begin_rates<Y: Dae>(
+    fn begin_rates<Y: Dae + ?Sized>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
         h: f64,
@@ -216,7 +219,7 @@ impl AlphaStepper {
     }
 
     /// Takes the next step of constant length; the last step may be shorter. Returns its end time.
-    fn constant_step<Y: Dae>(
+    fn constant_step<Y: Dae + ?Sized>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
     ) -> Result<f64, Cause<Y::Stop>> {
@@ -231,7 +234,7 @@ impl AlphaStepper {
     }
 
     /// Tries steps until one is accepted. Returns its end time.
-    fn accepted_step<Y: Dae>(
+    fn accepted_step<Y: Dae + ?Sized>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
         size: &mut StepSize,
@@ -274,7 +277,7 @@ impl AlphaStepper {
     }
 
     /// The error norm of the quadratures; 0 if they need no test of their own.
-    fn quadrature_norm<Y: Dae>(
+    fn quadrature_norm<Y: Dae + ?Sized>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
@@ -288,19 +291,19 @@ impl AlphaStepper {
     }
 
     /// Tries one step. Returns whether its equations were solved.
-    fn attempt<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>, h: f64) -> bool {
+    fn attempt<Y: Dae + ?Sized>(&mut self, dae: &mut CountedDae<'_, Y>, h: f64) -> bool {
         let step = &mut self.method.step;
         step.advance(dae, (self.steps.t, h), &mut self.scale) && step.finite()
     }
 
     /// The reason why no step of length `h` was found.
-    fn gave_up<Y: Dae>(&self, dae: &mut CountedDae<'_, Y>, h: f64) -> Cause<Y::Stop> {
+    fn gave_up<Y: Dae + ?Sized>(&self, dae: &mut CountedDae<'_, Y>, h: f64) -> Cause<Y::Stop> {
         let (t, step) = (self.steps.t, &self.method.step);
         dae.unsolved(step.singular, t, &step.start, Cause::Newton { t, h })
     }
 
     /// Projects the accepted state onto the constraints.
-    fn finish<Y: Dae>(
+    fn finish<Y: Dae + ?Sized>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
         t_new: f64,

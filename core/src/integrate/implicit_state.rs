@@ -18,7 +18,7 @@ pub(super) struct ImplicitState {
 
 impl ImplicitState {
     pub fn new(lengths: DaeLengths) -> Self {
-        let DaeLengths { coordinates, multipliers, states, quadratures } = lengths;
+        let DaeLengths { coordinates, multipliers, states, quadratures, .. } = lengths;
         Self {
             q: vec![0.0; coordinates],
             v: vec![0.0; coordinates],

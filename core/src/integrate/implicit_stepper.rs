@@ -34,7 +34,7 @@ pub(super) trait ImplicitScheme: Sized + 'static {
     fn table() -> &'static [f64];
 
     /// Takes the next step, from `stepper.steps.y`.
-    fn next<Y: Dae>(
+    fn next<Y: Dae + ?Sized>(
         stepper: &mut ImplicitStepper<Self>,
         dae: &mut CountedDae<'_, Y>,
     ) -> Result<(), Cause<Y::Stop>>;
@@ -48,7 +48,7 @@ pub(super) trait ImplicitScheme: Sized + 'static {
 
 impl<M: ImplicitScheme> ImplicitStepper<M> {
     /// Creates a stepper at the beginning of the span with the state `y`. Evaluates nothing.
-    pub fn start<Y: Dae>(
+    pub fn start<Y: Dae + ?Sized>(
         control: StepControl,
         lengths: DaeLengths,
         span: (f64, f64),
@@ -67,7 +67,7 @@ impl<M: ImplicitScheme> ImplicitStepper<M> {
     }
 }
 
-impl<M: ImplicitScheme, Y: Dae> Stepper<Y, Y::Stop> for ImplicitStepper<M> {
+impl<M: ImplicitScheme, Y: Dae + ?Sized> Stepper<Y, Y::Stop> for ImplicitStepper<M> {
     fn step(&mut self, system: &mut Y) -> Result<(), Cause<Y::Stop>> {
         self.steps.move_on();
         let mut dae = CountedDae { system, counts: self.counts };

@@ -67,7 +67,7 @@ struct RadauProgress {
 }
 
 impl ImplicitMethod for Radau {
-    fn start<Y: Dae>(
+    fn start<Y: Dae + ?Sized>(
         &self,
         system: &Y,
         span: (f64, f64),
@@ -88,7 +88,7 @@ impl ImplicitScheme for RadauProgress {
         &*EXTENSION
     }
 
-    fn next<Y: Dae>(
+    fn next<Y: Dae + ?Sized>(
         stepper: &mut RadauStepper,
         dae: &mut CountedDae<'_, Y>,
     ) -> Result<(), Cause<Y::Stop>> {
@@ -119,7 +119,10 @@ type RadauStepper = ImplicitStepper<RadauProgress>;
 
 impl RadauStepper {
     /// Evaluates the derivative at the start and chooses the first step.
-    fn begin<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<f64, Cause<Y::Stop>> {
+    fn begin<Y: Dae + ?Sized>(
+        &mut self,
+        dae: &mut CountedDae<'_, Y>,
+    ) -> Result<f64, Cause<Y::Stop>> {
         let Self { method, control, scale, steps, .. } = self;
         let RadauStep { start, stages, .. } = &mut method.step;
         let first = dae.start(control, steps, (start, &mut stages[0]), scale, ERROR_ORDER)?;
@@ -128,7 +131,7 @@ impl RadauStepper {
     }
 
     /// Takes the next step of constant length; the last step may be shorter. Returns its end time.
-    fn constant_step<Y: Dae>(
+    fn constant_step<Y: Dae + ?Sized>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
     ) -> Result<f64, Cause<Y::Stop>> {
@@ -153,7 +156,7 @@ impl RadauStepper {
     }
 
     /// Tries steps until one is accepted. Returns its end time.
-    fn accepted_step<Y: Dae>(
+    fn accepted_step<Y: Dae + ?Sized>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
         size: f64,
@@ -213,7 +216,7 @@ impl RadauStepper {
 
     /// The error norm of the step. The error is estimated a second time at the start and after rejections, where
     /// stiff components may not have decayed.
-    fn error<Y: Dae>(
+    fn error<Y: Dae + ?Sized>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
         span: (f64, f64),
@@ -231,7 +234,7 @@ impl RadauStepper {
     }
 
     /// The error norm of the quadratures; 0 if they need no test of their own.
-    fn quadrature_norm<Y: Dae>(&self, dae: &CountedDae<'_, Y>, h: f64) -> f64 {
+    fn quadrature_norm<Y: Dae + ?Sized>(&self, dae: &CountedDae<'_, Y>, h: f64) -> f64 {
         let Self { method: RadauProgress { step, .. }, steps, lengths, scale, .. } = self;
         let old = steps.y[lengths.controlled()..].iter().enumerate();
         let works: Vec<f64> = old.map(|(k, work)| work + step.work(k, h)).collect();
@@ -266,7 +269,7 @@ impl RadauStepper {
     }
 
     /// Projects the accepted state onto the constraints and evaluates its derivative.
-    fn finish<Y: Dae>(
+    fn finish<Y: Dae + ?Sized>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
         t_new: f64,

@@ -5,7 +5,8 @@
 //! eigenvalues, so that the equations of Newton's iteration separate into a real and a complex system (Hairer and
 //! Wanner, *Solving Ordinary Differential Equations II*, IV.5 and IV.8).
 
-use crate::math::indexed;
+use super::dae::NewtonCoefficients;
+use crate::math::{indexed, Complex, Field};
 use std::sync::LazyLock;
 
 /// √6.
@@ -97,6 +98,25 @@ pub(super) fn lagrange<const N: usize>(nodes: [f64; N], theta: f64) -> [f64; N] 
         let others = nodes.iter().enumerate().filter(|(j, _)| *j != k);
         others.fold(1.0, |product, (_, node)| product * (theta - node) / (nodes[k] - node))
     })
+}
+
+/// Coefficients of the matrix for an eigenvalue. `step` is h divided by the eigenvalue.
+pub(super) fn coefficients<F: Field>(step: F) -> NewtonCoefficients<F> {
+    NewtonCoefficients {
+        mass: F::one(),
+        damping: step,
+        stiffness: step * step,
+        rate: step,
+        state_force: step,
+        state_velocity: step,
+        state_position: step * step,
+        state_rate: step,
+    }
+}
+
+/// h divided by the complex eigenvalue.
+pub(super) fn complex_step(h: f64) -> Complex {
+    Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h)
 }
 
 #[cfg(test)]

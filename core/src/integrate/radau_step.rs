@@ -9,20 +9,23 @@
 //! [ Φ_q + h/μ B             0   ] [ h/μ Δλ ] = - [  Φ̇   ]
 //! ```
 //!
-//! They are solved once with the real and once with the complex eigenvalue (Hairer and Wanner, *Solving Ordinary
-//! Differential Equations II*, IV.8 and VII.6). The condition number does not grow as h decreases. The order is 5 for
-//! q and v, and 3 for λ.
+//! They are solved with the real and with the complex eigenvalue (Hairer and Wanner, *Solving Ordinary Differential
+//! Equations II*, IV.8 and VII.6). The condition number does not grow as h decreases. q and v have order 5, λ has 3.
 
-use super::dae::{ConstraintLevel, Dae, DaeLengths, DaeResidual, Iterate, NewtonCoefficients};
+use super::dae::{ConstraintLevel, Dae, DaeLengths, DaeResidual, Iterate};
 use super::error_weights::ErrorWeights;
 use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
 use super::implicit_state::{serves, ImplicitState};
-use super::radau_coefficients::{dot, lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
+use super::radau_coefficients::{
+    coefficients, complex_step, dot, lagrange, A, C, ERROR, INVERSE, REAL, T, T_INVERSE,
+};
 use crate::math::{indexed, Complex, Field, ShortArray};
 
 /// Relative size of velocity corrections that are rounding errors, compared with the largest velocity.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Part of the tolerance that counts for unknowns on which others depend.
+const EARLIER: f64 = 0.1;
 /// Number of rows of the continuous extension: v at the beginning and at the stages, the derivatives at the stages,
 /// and the jump of a projection.
 pub(super) const ROWS: usize = 8;
@@ -67,6 +70,8 @@ pub(super) struct RadauStep {
     /// Whether the tangent was computed for this step.
     pub fresh: bool,
     factored: Option<f64>,
+    /// Number of columns of each part of the state.
+    columns: usize,
 }
 
 impl RadauStep {
@@ -90,6 +95,7 @@ impl RadauStep {
             along: vec![0.0; n],
             fresh: false,
             factored: None,
+            columns: lengths.columns,
         }
     }
 
@@ -99,7 +105,7 @@ impl RadauStep {
     }
 
     /// Solves for the stages of a step.
-    pub fn advance<Y: Dae>(
+    pub fn advance<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
@@ -116,12 +122,23 @@ impl RadauStep {
             self.factored = Some(h);
         }
         self.predict(h);
-        self.newton(system, (t, h), scale, enough)
+        let (parts, mut most, mut slowest) = (system.system.parts(), 0, 0.0_f64);
+        for part in 0..parts {
+            system.system.begin_part(part);
+            let tolerance = enough.tolerance * if part + 1 < parts { EARLIER } else { 1.0 };
+            match self.newton(system, (t, h), scale, NewtonLimits { tolerance, ..enough }) {
+                NewtonOutcome::Converged(count, rate) => {
+                    (most, slowest) = (most.max(count), slowest.max(rate));
+                }
+                other => return other,
+            }
+        }
+        NewtonOutcome::Converged(most, slowest)
     }
 
     /// Computes the tangent at the beginning of the step, but with the positions at its middle. Because bodies
     /// rotate, this makes the iteration converge twice as fast.
-    pub fn linearize<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64, h: f64) {
+    pub fn linearize<Y: Dae + ?Sized>(&mut self, system: &mut CountedDae<'_, Y>, t: f64, h: f64) {
         let ImplicitState { q, v, .. } = &self.start;
         self.dq.iter_mut().zip(q.iter().zip(v)).for_each(|(mid, (q, v))| *mid = q + 0.5 * h * v);
         system.linearize(t + 0.5 * h, Iterate { q: &self.dq, ..self.start.iterate() });
@@ -154,7 +171,7 @@ impl RadauStep {
         }
     }
 
-    fn newton<Y: Dae>(
+    fn newton<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
@@ -212,7 +229,11 @@ impl RadauStep {
     }
 
     /// Computes the residuals and powers of all stages.
-    pub fn evaluate<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, (t, h): (f64, f64)) {
+    pub fn evaluate<Y: Dae + ?Sized>(
+        &mut self,
+        system: &mut CountedDae<'_, Y>,
+        (t, h): (f64, f64),
+    ) {
         let (n, states) = (self.dq.len(), self.start.z.len());
         for ((stage, residual), c) in self.stages.iter_mut().zip(&mut self.residuals).zip(C) {
             let ImplicitState { q, v, a, lam, z, dz, powers } = stage;
@@ -225,7 +246,7 @@ impl RadauStep {
     }
 
     /// Corrects the stages by one iteration. Returns the norm of the correction.
-    fn correct<Y: Dae>(
+    fn correct<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         h: f64,
@@ -281,12 +302,14 @@ impl RadauStep {
         (sum / 3.0_f64).sqrt()
     }
 
-    /// The norm of corrections that contain only rounding errors: of v relative to the largest velocity, of z to its
-    /// own size.
+    /// The norm of corrections that contain only rounding errors: of v relative to the largest velocity of its column, of
+    /// z to its own size.
     fn rounding(&self, scale: &ErrorWeights) -> f64 {
         let (n, end) = (self.dq.len(), &self.stages[2]);
-        let largest = end.v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-        let sizes = std::iter::repeat_n(largest, n).chain(end.z.iter().map(|z| z.abs()));
+        let largest = |v: &[f64]| v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let columns = end.v.chunks((n / self.columns).max(1));
+        let sizes = columns.flat_map(|v| std::iter::repeat_n(largest(v), v.len()));
+        let sizes = sizes.chain(end.z.iter().map(|z| z.abs()));
         let parts = sizes.zip(&scale.weights[n..]).filter(|(_, w)| **w > 0.0);
         let sum: f64 = parts.map(|(x, w)| (ROUNDING * x / w) * (ROUNDING * x / w)).sum();
         (sum / scale.weights.len().max(1) as f64).sqrt()
@@ -295,7 +318,7 @@ impl RadauStep {
     /// The estimated error of the step relative to its tolerance. It is the difference from an embedded method of
     /// order 3, filtered by the real matrix (IV.8.19 and IV.8.20 of the book). With `again`, the estimate is repeated
     /// from the start moved by the first estimate. A stiff start requires this.
-    pub fn error<Y: Dae>(
+    pub fn error<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
@@ -374,23 +397,4 @@ impl RadauStep {
         self.h_before = Some(h);
         self.fresh = false;
     }
-}
-
-/// Coefficients of the matrix for an eigenvalue. `step` is h divided by the eigenvalue.
-fn coefficients<F: Field>(step: F) -> NewtonCoefficients<F> {
-    NewtonCoefficients {
-        mass: F::one(),
-        damping: step,
-        stiffness: step * step,
-        rate: step,
-        state_force: step,
-        state_velocity: step,
-        state_position: step * step,
-        state_rate: step,
-    }
-}
-
-/// h divided by the complex eigenvalue.
-fn complex_step(h: f64) -> Complex {
-    Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h)
 }

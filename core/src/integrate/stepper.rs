@@ -12,7 +12,7 @@ use super::statistics::StepCounts;
 use super::step::Step;
 
 /// Advances a system `Y` with the error type `E` by one accepted step at a time.
-pub trait Stepper<Y, E> {
+pub trait Stepper<Y: ?Sized, E> {
     /// Takes the next step, which ends at t_end at the latest.
     ///
     /// # Errors
@@ -118,7 +118,7 @@ pub trait ImplicitMethod {
     ///
     /// # Errors
     /// As [`ExplicitMethod::start`].
-    fn start<Y: Dae>(
+    fn start<Y: Dae + ?Sized>(
         &self,
         system: &Y,
         span: (f64, f64),

@@ -3,12 +3,12 @@
 use super::motion_dae::MotionDae;
 use super::motion_ode::MotionOde;
 use super::options::Options;
-use crate::integrate::{BoxedStepper, Cause, ImplicitMethod, Step, StepCounts, Stepper};
+use crate::integrate::{BoxedStepper, Cause, Dae, ImplicitMethod, Step, StepCounts, Stepper};
 use crate::solve::Breakdown;
 
 /// The stepper of an implicit method, with its form of the equations.
 pub(super) struct ImplicitMotion<'a> {
-    stepper: BoxedStepper<MotionDae<'a>, Breakdown>,
+    stepper: BoxedStepper<dyn Dae<Stop = Breakdown> + 'a, Breakdown>,
     dae: Box<MotionDae<'a>>,
 }
 
@@ -22,7 +22,8 @@ impl<'a> ImplicitMotion<'a> {
         y: &[f64],
     ) -> Result<Self, Cause<Breakdown>> {
         let dae = Box::new(MotionDae::new(ode.model, options, &ode.workspace));
-        Ok(Self { stepper: method.start(&*dae, span, y)?, dae })
+        let system: &(dyn Dae<Stop = Breakdown> + 'a) = &*dae;
+        Ok(Self { stepper: method.start(system, span, y)?, dae })
     }
 
     /// The least ratio of a pivot to its largest summand at the end of the last step.
@@ -39,11 +40,11 @@ impl<'a> ImplicitMotion<'a> {
 impl<'a> Stepper<MotionOde<'a>, Breakdown> for ImplicitMotion<'a> {
     fn step(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
         self.dae.hold(&ode.workspace);
-        self.stepper.step(&mut self.dae)
+        self.stepper.step(&mut *self.dae)
     }
 
     fn prepare_interpolant(&mut self, _: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
-        self.stepper.prepare_interpolant(&mut self.dae)
+        self.stepper.prepare_interpolant(&mut *self.dae)
     }
 
     fn last_step(&self) -> Option<Step<'_>> {

@@ -219,6 +219,11 @@ impl<'a> MethodSwitching<'a> {
         matches!(self.piece, SwitchedStepper::Implicit(_)) != self.due
     }
 
+    /// Whether the implicit method took the last step.
+    pub fn was_implicit(&self) -> bool {
+        matches!(&self.piece, SwitchedStepper::Implicit(stepper) if stepper.was_implicit())
+    }
+
     /// Number of factorisations that the methods do not count.
     pub fn factorisations(&self) -> usize {
         self.factorisations + self.piece.factorisations()

@@ -16,6 +16,7 @@
 //! | `stepper` | a stepper for callers |
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; the automatic choice of the method |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
+//! | `newton_matrix` | the matrices of Newton's iteration of implicit methods |
 //! | `implicit_motion` | an implicit method with the interface of explicit methods |
 //! | `initial_stiffness`, `stiffness_detection` | stiffness of a model at the start, and during the run |
 //! | `switch_schedule`, `switching` | switches in time, found before a run; switches during a run |
@@ -65,6 +66,7 @@ mod modes;
 mod motion_dae;
 mod motion_ode;
 mod motion_stepper;
+mod newton_matrix;
 mod no_mass;
 mod option_checks;
 mod options;
@@ -105,6 +107,7 @@ pub(in crate::analyses) use massless::undetermined;
 pub use methods::{Auto, Scheme};
 pub use modes::{can_stick, friction_modes};
 pub(in crate::analyses) use modes::{watched_mode, ModeFunction};
+pub(in crate::analyses) use newton_matrix::NewtonMatrix;
 pub(in crate::analyses) use no_mass::of_beam;
 pub use options::{most_steps, read, Options, Output, Singularity};
 pub use passages::{HeldPieces, Passage, Struck};

@@ -1,19 +1,17 @@
-//! The equations of motion for implicit methods: residuals, tangent, and the matrices of Newton's iteration, all with
-//! one elimination plan.
+//! The equations of motion for implicit methods: residuals, and the matrices of Newton's iteration.
 
 use super::motion_ode::least_energy;
+use super::newton_matrix::NewtonMatrix;
 use super::options::Options;
 use super::stabilizations::Stabilization;
 use crate::equations::balance::Balance;
-use crate::equations::iteration::{assemble, Coefficients, Places};
-use crate::equations::tangent::Tangent;
 use crate::equations::{constraints, energy, Gains, Workspace};
 use crate::integrate::{
     ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Iterate, NewtonCoefficients,
 };
 use crate::math::Complex;
 use crate::model::Model;
-use crate::solve::{BlockLu, Breakdown};
+use crate::solve::Breakdown;
 use crate::stabilize::{Projection, Projector};
 
 /// The mechanism and the memory of implicit methods.
@@ -24,13 +22,9 @@ pub(super) struct MotionDae<'a> {
     /// Whether the options require projection.
     projects: bool,
     balance: Balance,
-    tangent: Tangent,
-    places: Places,
-    real: BlockLu<f64>,
+    matrix: NewtonMatrix,
     /// Right side and solution of the augmented matrix.
     solution: Vec<f64>,
-    /// Allocated for the first complex matrix.
-    complex: Option<BlockLu<Complex>>,
     /// Factorisations of the augmented matrix, for accelerations.
     accelerations: usize,
     /// An energy whose errors matter, J, if works are tested.
@@ -44,20 +38,14 @@ impl<'a> MotionDae<'a> {
             Stabilization::Projection(projection) => (projection, true),
             _ => (Projection::default(), false),
         };
-        let tangent = Tangent::new(model);
-        let mut places = Places::new(model, &tangent);
-        places.omit(one.matrix.omitted());
         Self {
             model,
             workspace: Workspace::like(model, one),
             projector: Projector::new(model, projection),
             projects,
             balance: Balance::new(model),
-            real: BlockLu::new(&places.plan),
+            matrix: NewtonMatrix::new(model, one.matrix.omitted()),
             solution: vec![0.0; model.layout.n_q + model.layout.n_rows],
-            complex: None,
-            tangent,
-            places,
             accelerations: 0,
             least_energy: least_energy(model),
         }
@@ -67,7 +55,7 @@ impl<'a> MotionDae<'a> {
     pub fn hold(&mut self, one: &Workspace) {
         if self.workspace.matrix.omitted() != one.matrix.omitted() {
             self.workspace.omit(one.matrix.omitted());
-            self.places.omit(one.matrix.omitted());
+            self.matrix.omit(one.matrix.omitted());
         }
         let pieces = &one.motions.pieces;
         for motions in [&mut self.workspace.motions, &mut self.balance.motions] {
@@ -85,13 +73,6 @@ impl<'a> MotionDae<'a> {
     pub fn pivot(&self) -> Option<f64> {
         self.workspace.matrix.cancellation().map(|(_, pivot)| pivot)
     }
-
-    fn coefficients<F>(of: NewtonCoefficients<F>) -> Coefficients<F> {
-        Coefficients {
-            motion: [of.mass, of.damping, of.stiffness, of.rate],
-            states: [of.state_force, of.state_velocity, of.state_position, of.state_rate],
-        }
-    }
 }
 
 impl Dae for MotionDae<'_> {
@@ -104,6 +85,7 @@ impl Dae for MotionDae<'_> {
             multipliers: layout.n_rows,
             states: layout.n_z,
             quadratures: layout.n_works,
+            columns: 1,
         }
     }
 
@@ -146,7 +128,7 @@ impl Dae for MotionDae<'_> {
     fn linearize(&mut self, t: f64, at: Iterate<'_>) {
         let motions = &mut self.balance.motions;
         motions.place(&self.model.layout, at.q, at.v);
-        self.tangent.linearize(self.model, motions, t, [at.a, at.lam, at.z]);
+        self.matrix.linearize(self.model, motions, t, [at.a, at.lam, at.z]);
     }
 
     /// The largest of the kinetic energy and the works.
@@ -156,29 +138,23 @@ impl Dae for MotionDae<'_> {
     }
 
     fn factor(&mut self, coefficients: NewtonCoefficients) -> bool {
-        assemble(&self.places, &self.tangent, Self::coefficients(coefficients), &mut self.real);
-        self.real.factor(&self.places.plan).is_ok()
+        self.matrix.factor(coefficients)
     }
 
     fn factor_complex(&mut self, coefficients: NewtonCoefficients<Complex>) -> bool {
-        let plan = &self.places.plan;
-        let lu = self.complex.get_or_insert_with(|| BlockLu::new(plan));
-        assemble(&self.places, &self.tangent, Self::coefficients(coefficients), lu);
-        lu.factor(plan).is_ok()
+        self.matrix.factor_complex(coefficients)
     }
 
     fn solve(&mut self, x: &mut [f64]) {
-        self.real.solve(&self.places.plan, x);
+        self.matrix.solve(x);
     }
 
     fn solve_complex(&mut self, x: &mut [Complex]) {
-        if let Some(lu) = &mut self.complex {
-            lu.solve(&self.places.plan, x);
-        }
+        self.matrix.solve_complex(x);
     }
 
     fn times(&self, x: &[f64], y: &[f64], s: &[f64], out: &mut [f64]) {
-        self.tangent.times(self.model, [x, y, s], out);
+        self.matrix.times(self.model, [x, y, s], out);
     }
 
     fn normal(&mut self, x: &mut [f64]) {

@@ -367,6 +367,15 @@ impl<'a> MotionStepper<'a> {
         Continued { size: self.kind.get().next_size(), implicit }
     }
 
+    /// Whether an implicit method took the last step.
+    pub fn was_implicit(&self) -> bool {
+        match &self.kind {
+            MethodStepper::Explicit(_) => false,
+            MethodStepper::HandingOver(stepper) => stepper.was_implicit(),
+            MethodStepper::Auto(stepper) => stepper.was_implicit(),
+        }
+    }
+
     /// Number of all factorisations.
     pub fn factorisations(&self) -> usize {
         let counted = self.statistics().factorisations as usize;

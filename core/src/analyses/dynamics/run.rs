@@ -378,6 +378,7 @@ fn observe(
     }
     let steps = recorder.dense.as_ref().map_or(0, |dense| dense.t.len() - 1);
     if steps > 0 {
+        run.implicit.resize(steps, stepper.was_implicit());
         run.held.extend(stepper.held(steps - 1).filter(|held| held.is_new(run.held.last())));
     }
     let step = stepper.last_step().expect("a step was taken");

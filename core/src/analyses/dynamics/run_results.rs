@@ -89,6 +89,8 @@ pub struct Run {
     pub passages: Vec<Passage>,
     /// The pieces of switches along the steps; empty without interpolants or switches.
     pub held: Vec<HeldPieces>,
+    /// Whether an implicit method took each step; empty without interpolants.
+    pub implicit: Vec<bool>,
     /// Counts.
     pub statistics: Statistics,
     /// The largest kinetic energy and work at the ends of the steps, J.

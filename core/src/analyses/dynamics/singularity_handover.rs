@@ -118,6 +118,11 @@ impl<'a> SingularityHandover<'a> {
         !matches!(self.turn, Turn::Method | Turn::HandOver)
     }
 
+    /// Whether an implicit method took the last step.
+    pub fn was_implicit(&self) -> bool {
+        matches!(self.method, Method::Implicit(_)) && !self.crossing()
+    }
+
     /// The stepper of the last step.
     fn current(&self) -> &dyn Stepper<MotionOde<'a>, Breakdown> {
         match &self.dop853 {

@@ -6,7 +6,9 @@
 //! | file | concept |
 //! |---|---|
 //! | `variables` | parameters and start values as numbers with derivatives |
-//! | `ode` | the equations of motion together with their derivatives |
+//! | `ode`, `dae` | the equations of motion together with their derivatives, for explicit and for implicit methods |
+//! | `columns` | the layout of states with derivatives |
+//! | `stepper` | the stepper of the derivatives |
 //! | `run_ends` | the end of a run, its states and their scales |
 //! | `starts` | the derivatives of a start |
 //! | `triggers` | the functions whose zeros change a motion |
@@ -33,6 +35,8 @@ mod at_outputs;
 mod at_rest;
 mod at_times;
 mod by_state;
+mod columns;
+mod dae;
 mod dissipation;
 mod driven;
 mod equilibrium;
@@ -49,6 +53,7 @@ mod run_ends;
 mod spectrum;
 mod starts;
 mod statistics;
+mod stepper;
 mod triggers;
 mod turning;
 mod variables;

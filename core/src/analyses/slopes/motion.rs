@@ -6,6 +6,7 @@
 use super::impacts;
 use super::ode::SlopeOde;
 use super::run_ends::{last_state, scales};
+use super::stepper::SlopeStepper;
 use super::triggers::Trigger;
 use crate::analyses::assemble::StartSlopes;
 use crate::analyses::dynamics::{
@@ -14,18 +15,16 @@ use crate::analyses::dynamics::{
 use crate::analyses::measures::Measure;
 use crate::elements::Behaviour;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
-use crate::integrate::{Atol, BoxedStepper, Dop853, ExplicitMethod, StepControl};
 use crate::math::Listed;
 use crate::model::{column_scales, ForceMode, Model};
-use crate::solve::Breakdown;
 use std::sync::Arc;
 
 /// Largest and least tolerance of states and derivatives, relative to each.
 const TOLERANCES: [f64; 2] = [1e-7, 1e-12];
 /// Absolute tolerance, as a part of the relative one and of the scale.
 const ABSOLUTE: f64 = 1e-3;
-/// Largest number of steps.
-const MOST: usize = 1_000_000;
+/// Number of steps of an implicit method after which it begins anew at the state of the run.
+const APART: f64 = 8.0;
 
 /// The equations of the model of a phase, for blocks of variables.
 type PhaseEquations<'a> = Box<dyn Fn(&Model, &Setting) -> Result<Vec<Sensitivity>, String> + 'a>;
@@ -58,7 +57,9 @@ pub(super) struct MotionSlopes<'a> {
     next: usize,
     /// The last state that was taken from the run, with its derivatives.
     y: Vec<f64>,
-    stepper: BoxedStepper<SlopeOde, Breakdown>,
+    stepper: SlopeStepper,
+    /// The first steps of the parts that explicit and implicit methods have taken.
+    methods: Vec<usize>,
     /// The first step of each phase, and the present phase.
     begins: Vec<usize>,
     phase: usize,
@@ -103,14 +104,11 @@ impl<'a> MotionSlopes<'a> {
         let [loose, tight] = TOLERANCES;
         let rtol = scheme.control().rtol.clamp(tight, loose);
         let atol = scales(model, run, sizes).iter().map(|x| ABSOLUTE * rtol * x).list();
-        let control = StepControl {
-            atol: Atol::Each(atol),
-            max_steps: Some(MOST),
-            ..StepControl::new(rtol, 0.0)
-        };
-        let stepper = Dop853 { control }.start(&ode, (first, last), &y);
+        let stepper = SlopeStepper::new(&ode, (rtol, atol), (first, last), &y);
         let stepper = stepper.map_err(|_| "the run has no steps".to_string())?;
         let last = last_state(model, run);
+        let methods = run.implicit.windows(2).enumerate().filter(|(_, pair)| pair[0] != pair[1]);
+        let methods = methods.map(|(k, _)| k + 1).list();
         let (phase, held, since) = (0, 0, (first, y.clone()));
         let late = starts.1.clone();
         let mut slopes = Self {
@@ -122,6 +120,7 @@ impl<'a> MotionSlopes<'a> {
             next: 0,
             y,
             stepper,
+            methods,
             begins,
             phase,
             held,
@@ -137,7 +136,7 @@ impl<'a> MotionSlopes<'a> {
         let setting = asked.run.settings.get(phase).cloned().unwrap_or_default();
         let model = setting.model(asked.model).map_err(|_| impossible(phase))?;
         let blocks = (asked.equations)(&model, &setting)?;
-        Ok(SlopeOde::new(Arc::new(model), blocks))
+        Ok(SlopeOde::new(Arc::new(model), blocks, asked.sizes.clone()))
     }
 
     /// The time at which the motion changes next: a phase ends, or a switch changes its piece.
@@ -165,12 +164,7 @@ impl<'a> MotionSlopes<'a> {
     pub fn at(&mut self, t: f64) -> Result<Vec<f64>, String> {
         while t > self.steps.t[self.step] {
             if t < self.stepper.t() {
-                let Self { stepper, ode, .. } = self;
-                stepper.prepare_interpolant(ode).map_err(|_| singular(t))?;
-                let mut y = stepper.y().to_vec();
-                if let Some(step) = stepper.last_step() {
-                    step.interpolate(t, &mut y);
-                }
+                let mut y = self.stepper.at(&mut self.ode, t).map_err(|_| singular(t))?;
                 self.project(t, &mut y)?;
                 return Ok(y);
             } else if self.stepper.t() == self.steps.t[self.next] {
@@ -186,7 +180,7 @@ impl<'a> MotionSlopes<'a> {
     /// Takes the state of the run at the end of steps.
     fn arrive(&mut self) -> Result<(), String> {
         let (n_y, end) = (self.ode.model.layout.n_y(), self.steps.t[self.next]);
-        let mut y = self.stepper.y().to_vec();
+        let mut y = self.stepper.y(&self.ode);
         self.step = self.next;
         match self.step + 1 < self.steps.t.len() {
             _ if self.ends_phase(self.step) => {}
@@ -198,17 +192,23 @@ impl<'a> MotionSlopes<'a> {
         self.go_on()
     }
 
-    /// Continues from the present state, to the end of as many steps of the run as fit into one step.
+    /// Continues from the present state, to the end of as many steps of the run as fit into one step, or into some of an
+    /// implicit method.
     fn go_on(&mut self) -> Result<(), String> {
-        let (t, ends) = (&self.steps.t, self.steps.t.len() - 1);
-        let (begin, last) = (t[self.step], self.corner().unwrap_or(t[ends]));
-        if self.step == ends || begin == last {
+        let (t, step) = (&self.steps.t, self.step);
+        let (begin, mut last) = (t[step], self.corner().unwrap_or(t[t.len() - 1]));
+        if step + 1 == t.len() || begin == last {
             return Ok(());
         }
-        let size = self.stepper.next_size().unwrap_or(0.0);
+        let is_implicit = self.asked.run.implicit.get(step) == Some(&true);
+        let other = self.methods.get(self.methods.partition_point(|first| *first <= step));
+        last = other.map_or(last, |first| last.min(t[*first]));
+        let known = self.stepper.next_size().filter(|_| self.stepper.is_implicit() == is_implicit);
+        let size = known.unwrap_or(0.0) * if is_implicit { APART } else { 1.0 };
         let most = t.partition_point(|end| *end <= last && end - begin <= size);
-        self.next = most.saturating_sub(1).max(self.step + 1);
-        let again = self.stepper.restart_until(begin, &self.y, t[self.next]);
+        self.next = most.saturating_sub(1).max(step + 1);
+        let first = is_implicit.then_some(t[step + 1] - begin);
+        let again = self.stepper.go_on(&self.ode, (begin, t[self.next]), &self.y, first);
         again.map_err(|_| singular(begin))
     }
 
@@ -313,6 +313,7 @@ impl<'a> MotionSlopes<'a> {
         }
         if self.phase > 0 {
             self.ode = Self::equations_of(asked, self.phase)?;
+            self.stepper.forget();
         }
         if let Some(known) = steps.y.get(self.step * n_y..(self.step + 1) * n_y) {
             take(known, asked.count, &mut self.y);

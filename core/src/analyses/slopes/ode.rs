@@ -1,10 +1,13 @@
 //! The equations of motion together with their derivatives, as one system of differential equations.
 
+use super::columns::{gather, SlopeColumns};
+use crate::analyses::dynamics::NewtonMatrix;
 use crate::elements::{Behaviour, Mode};
+use crate::equations::balance::Balance;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::equations::{forces, Gains, Workspace};
 use crate::integrate::Ode;
-use crate::math::{Dual, Listed, Real};
+use crate::math::{Listed, Real};
 use crate::model::{ForceItem, Model};
 use crate::solve::Breakdown;
 use std::sync::Arc;
@@ -20,15 +23,24 @@ pub(super) struct SlopeOde {
     /// depends on the variables. One row for each block; empty if no friction sticks.
     anchors: Vec<Vec<Slope>>,
     n_y: usize,
+    /// The layout of an implicit method, its equations of the motion and its matrices.
+    pub columns: SlopeColumns,
+    pub motion: Option<Box<(Balance, NewtonMatrix)>>,
+    /// Whether the motion is solved, not its derivatives.
+    pub alone: bool,
     /// The state with derivatives by the variables of one block.
     state: Vec<Slope>,
 }
 
 impl SlopeOde {
-    pub fn new(model: Arc<Model>, blocks: Vec<Sensitivity>) -> Self {
+    /// The equations of a model by variables of these magnitudes.
+    pub fn new(model: Arc<Model>, blocks: Vec<Sensitivity>, sizes: Vec<f64>) -> Self {
         let (n_y, workspace) = (model.layout.n_y(), Workspace::new(&model));
         let (state, anchors) = (vec![Slope::constant(0.0); n_y], Vec::new());
-        Self { model, workspace, blocks, anchors, n_y, state }
+        let layout = &model.layout;
+        let columns =
+            SlopeColumns::new(sizes, [layout.n_q, layout.n_q, layout.n_z, layout.n_works]);
+        Self { model, workspace, blocks, anchors, n_y, columns, motion: None, alone: false, state }
     }
 
     /// A time whose derivatives by the variables of block `b` are in `late`.
@@ -121,17 +133,6 @@ impl SlopeOde {
             x.iter_mut().zip(&change).for_each(|(x, dx)| x.slope[place] += dx);
         }
         Ok(())
-    }
-}
-
-/// Reads a state with derivatives.
-fn gather(n_y: usize, b: usize, y: &[f64], state: &mut [Slope]) {
-    for (k, x) in state.iter_mut().enumerate() {
-        let mut slope = [0.0; ABREAST];
-        for (place, slope) in slope.iter_mut().enumerate() {
-            *slope = y[n_y * (1 + ABREAST * b + place) + k];
-        }
-        *x = Dual { value: y[k], slope };
     }
 }
 

@@ -155,7 +155,7 @@ impl Dae for Constrained {
     type Stop = String;
 
     fn lengths(&self) -> DaeLengths {
-        DaeLengths { coordinates: 2, multipliers: 1, states: 2, quadratures: 1 }
+        DaeLengths { coordinates: 2, multipliers: 1, states: 2, quadratures: 1, columns: 1 }
     }
 
     fn accelerate(
