@@ -46,6 +46,7 @@ pub(super) fn decide(
     let acceleration = place.largest_acceleration(&phase);
     let rate = place.fastest(&phase).max(acceleration.sqrt()).max(jumped.unwrap_or(0.0));
     let jumped = jumped.is_some();
+    let still = Still { rate, acceleration: if jumped { acceleration } else { 0.0 } };
     let holders = holders_of_friction(model, place, &all);
     let (mut modes, mut candidates) = (Vec::new(), Vec::new());
     for ((k, threshold), holders) in all.iter().zip(&thresholds).zip(&holders) {
@@ -56,11 +57,7 @@ pub(super) fn decide(
         let (free, candidate) = match model.forces[*k].element.behaviour() {
             Some(Behaviour::Sticks) => {
                 let rests = drivers_rest(model, *holders, place.t, place.state(model)[0]);
-                let unit = place.unit(model, *k);
-                // sliding that ends within the rounding error of its place would only rattle
-                let brief = (2.0 * acceleration * unit * place.rounding(model, *k)).sqrt();
-                let least = if jumped { brief } else { 0.0 }.max(STILL * rate * unit);
-                let still = threshold.abs() <= least || *threshold == 0.0 || rests;
+                let still = threshold.abs() <= still.least(model, place, *k) || rests;
                 let ended = !jumped && fired.contains(k);
                 let old = if jumped { Mode::Open } else { mode_of(before, *k) };
                 let direction = match old {
@@ -92,6 +89,22 @@ pub(super) fn decide(
     }
     give_speed_slack((model, place), &mut modes, &thresholds, rate);
     Ok(modes)
+}
+
+/// The largest rate of a mechanism, 1/s, and its acceleration after a jump, 1/s²; zero if there was none.
+struct Still {
+    rate: f64,
+    acceleration: f64,
+}
+
+impl Still {
+    /// The speed of sliding that counts as zero. After a jump, sliding that ends within the rounding error of its place would
+    /// only rattle.
+    fn least(&self, model: &Model, place: &StateAt<'_>, force: usize) -> f64 {
+        let unit = place.unit(model, force);
+        let brief = (2.0 * self.acceleration * unit * place.rounding(model, force)).sqrt();
+        brief.max(STILL * self.rate * unit)
+    }
 }
 
 /// Whether friction sticks or its sliding has ended.
