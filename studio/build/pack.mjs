@@ -12,12 +12,13 @@ const STREAMS = [
   "longs",
   "reals",
   "addresses",
+  "far",
   "calls",
   "labels",
   "types",
   "others",
 ];
-const [, OPERATIONS, LOCALS, CONSTANTS, LONGS, REALS, ADDRESSES, CALLS, LABELS, TYPES, OTHERS] = STREAMS.keys();
+const [, OPERATIONS, LOCALS, CONSTANTS, LONGS, REALS, ADDRESSES, FAR, CALLS, LABELS, TYPES, OTHERS] = STREAMS.keys();
 
 /** What follows an operation. Other codes are the number of the stream that has a number. */
 const MANY = -1; // a count, so many numbers and one more
@@ -25,6 +26,8 @@ const LIST = -2; // a count and so many numbers
 const EIGHT = -3; // eight bytes of a real number
 const FOUR = -4;
 const HINT = -5; // a hint that is left out
+const PLACE = -6; // an address of one byte; after the largest byte, it is a number among the far ones
+const LARGEST = 255;
 
 const numbered = (first, last, ...parts) => Array.from({ length: last - first + 1 }, (_, k) => [first + k, parts]);
 /** The operations with more than their code: WebAssembly 2.0 without vectors. */
@@ -37,7 +40,7 @@ const FOLLOWING = Object.fromEntries([
   [0x1c, [LIST]],
   ...numbered(0x20, 0x22, LOCALS),
   ...numbered(0x23, 0x26, OTHERS),
-  ...numbered(0x28, 0x3e, HINT, ADDRESSES),
+  ...numbered(0x28, 0x3e, HINT, PLACE),
   ...numbered(0x3f, 0x40, OTHERS),
   [0x41, [CONSTANTS]],
   [0x42, [LONGS]],
@@ -151,7 +154,11 @@ function packOperation(reader, streams) {
 
 function packPart(part, reader, streams) {
   if (part === HINT) reader.number(false);
-  else if (part === EIGHT || part === FOUR) streams[REALS].push(...reader.taken(part === EIGHT ? 8 : 4));
+  else if (part === PLACE) {
+    const address = reader.count();
+    streams[ADDRESSES].push(Math.min(address, LARGEST));
+    if (address >= LARGEST) streams[FAR].push(...shortNumber(address));
+  } else if (part === EIGHT || part === FOUR) streams[REALS].push(...reader.taken(part === EIGHT ? 8 : 4));
   else if (part === MANY || part === LIST) {
     const count = reader.count();
     streams[LABELS].push(...shortNumber(count));
@@ -167,8 +174,8 @@ function shortNumber(value) {
 }
 
 function joined(streams) {
-  const places = { OPERATIONS, REALS, LABELS, TYPES, OTHERS };
-  const codes = { MANY, LIST, EIGHT, FOUR, HINT };
+  const places = { OPERATIONS, REALS, ADDRESSES, FAR, LABELS, TYPES, OTHERS };
+  const codes = { MANY, LIST, EIGHT, FOUR, HINT, PLACE, LARGEST };
   const lengths = streams.map(({ length }) => length);
   const rules = JSON.stringify({ FOLLOWING, PREFIXED, lengths, places, codes, sections: { CODE, PREFIX } });
   const head = new TextEncoder().encode(rules);

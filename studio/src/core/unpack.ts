@@ -9,8 +9,8 @@ interface Head {
   /** Bytes of each stream. */
   lengths: number[];
   /** Places in the list of streams. */
-  places: Record<"OPERATIONS" | "REALS" | "LABELS" | "TYPES" | "OTHERS", number>;
-  codes: Record<"MANY" | "LIST" | "EIGHT" | "FOUR" | "HINT", number>;
+  places: Record<"OPERATIONS" | "REALS" | "ADDRESSES" | "FAR" | "LABELS" | "TYPES" | "OTHERS", number>;
+  codes: Record<"MANY" | "LIST" | "EIGHT" | "FOUR" | "HINT" | "PLACE" | "LARGEST", number>;
   sections: { CODE: number; PREFIX: number };
 }
 
@@ -119,12 +119,18 @@ function writeBodies(head: Head, streams: Tape[], module: Tape): void {
 
 /** A function that writes the operations of one body. */
 function writerOf({ FOLLOWING, PREFIXED, places, codes, sections }: Head, streams: Tape[], module: Tape): () => void {
-  const [operations, reals, labels] = [streams[places.OPERATIONS]!, streams[places.REALS]!, streams[places.LABELS]!];
-  const table = (of: Following) => Array.from({ length: 256 }, (_, code) => of[code] ?? []);
+  const of = (place: keyof Head["places"]) => streams[places[place]]!;
+  const [operations, reals, labels] = [of("OPERATIONS"), of("REALS"), of("LABELS")];
+  const [addresses, far] = [of("ADDRESSES"), of("FAR")];
+  const table = (rules: Following) => Array.from({ length: 256 }, (_, code) => rules[code] ?? []);
   const [plain, prefixed] = [table(FOLLOWING), table(PREFIXED)];
   const follow = (part: number) => {
     if (part >= 0) streams[part]!.copy(module);
-    else if (part === codes.HINT) module.bytes[module.at++] = 0;
+    else if (part === codes.PLACE) {
+      const address = addresses.bytes[addresses.at++]!;
+      if (address < codes.LARGEST) module.write(address);
+      else far.copy(module);
+    } else if (part === codes.HINT) module.bytes[module.at++] = 0;
     else if (part === codes.EIGHT) module.append(reals.taken(8));
     else if (part === codes.FOUR) module.append(reals.taken(4));
     else {
