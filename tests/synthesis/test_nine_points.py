@@ -101,3 +101,8 @@ def test_a_case_with_a_choice_has_the_candidates_of_the_studio() -> None:
 def test_a_wrong_start_is_refused() -> None:
     with pytest.raises(ValueError, match="nine places"):
         _core.nine_point_four_bars(EXAMPLE, b"")
+
+
+def test_the_stored_solutions_are_small() -> None:
+    """They are in every wheel and source distribution."""
+    assert 0 < nine._START.stat().st_size <= 100_000

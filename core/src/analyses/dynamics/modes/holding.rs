@@ -246,10 +246,13 @@ fn hold(
         let reserves = worst(&place.phase(model, &modes), place, &ended);
         (matches!(reserves, Ok(None)) && fits(&modes)).then_some(modes)
     };
-    if let Some(together) = Together::of(model, place, &free, &all) {
-        let ways = [together.sharing(), together.alone(model, place)];
-        if let Some(modes) = ways.iter().find_map(|(now, left)| tried(now, left)) {
-            return Ok(modes);
+    if let Some(mut together) = Together::of(model, place, &free, &all) {
+        for only_pressing in [false, true] {
+            together.only_pressing = only_pressing;
+            let ways = [together.sharing(), together.alone(model, place)];
+            if let Some(modes) = ways.iter().find_map(|(now, left)| tried(now, left)) {
+                return Ok(modes);
+            }
         }
     }
     if count > MOST_TRIED {

@@ -23,7 +23,9 @@ pub(super) struct Together<'a> {
     /// The forces of the contacts, and the accelerations with them.
     solved: Vec<f64>,
     after: Vec<f64>,
-    zero: f64,
+    most: f64,
+    /// Contacts without force separate. They may have no acceleration but rounding errors, as between bodies that fall.
+    pub only_pressing: bool,
 }
 
 impl<'a> Together<'a> {
@@ -54,12 +56,19 @@ impl<'a> Together<'a> {
         let none = vec![0.0; forces.len()];
         let solved = found.solve(&onset, &none, &none)?;
         let after = found.after(&onset, &solved);
-        let zero = ZERO * largest(&solved).max(1.0);
-        Some(Self { free, candidates, found, solved, after, zero })
+        let most = largest(&solved).max(1.0);
+        Some(Self { free, candidates, found, solved, after, most, only_pressing: false })
     }
 
     fn at(&self, force: usize) -> Option<usize> {
         self.found.all.iter().position(|own| own.force == force)
+    }
+
+    /// Whether a contact stays closed, or friction sticks.
+    fn stays(&self, at: usize) -> bool {
+        let after = self.after[at].abs() / self.most;
+        let presses = at >= self.found.normals || !self.only_pressing || self.solved[at] > 0.0;
+        presses && after <= ZERO
     }
 
     /// The candidates that hold, those with the largest forces first, and the modes of the others. Friction that sticks
@@ -70,13 +79,11 @@ impl<'a> Together<'a> {
             let Some(at) = self.at(own.force).filter(|at| *at >= self.found.normals) else {
                 continue;
             };
-            if self.after[at].abs() > self.zero {
+            if !self.stays(at) {
                 own.mode = Mode::Slides(self.after[at].signum());
             }
         }
-        let holds = |(force, _): &(usize, f64)| {
-            self.at(*force).is_none_or(|at| self.after[at].abs() <= self.zero)
-        };
+        let holds = |(k, _): &(usize, f64)| self.at(*k).is_none_or(|at| self.stays(at));
         let mut left = self.candidates.iter().copied().filter(holds).list();
         let force = |(k, _): &(usize, f64)| self.at(*k).map_or(0.0, |at| self.solved[at].abs());
         left.order_by(|a, b| force(b).total_cmp(&force(a)));
@@ -91,9 +98,10 @@ impl<'a> Together<'a> {
             let (contact, mu) = self.found.all[at].of?;
             let limit = mu * self.found.all[contact].unit / self.found.all[at].unit;
             let (own, most) = (self.solved[at], limit * self.solved[contact]);
+            let zero = ZERO * self.most;
             match own.abs() {
-                x if x <= self.zero => Some(Mode::Idle),
-                x if x >= most - self.zero => Some(Mode::Slides(-own.signum())),
+                x if x <= zero => Some(Mode::Idle),
+                x if x >= most - zero => Some(Mode::Slides(-own.signum())),
                 _ => None,
             }
         };
