@@ -30,58 +30,67 @@ pub fn unit<S: Real>(model: &Model<S>, size: f64, force: usize) -> f64 {
 
 /// The stops and contacts with restitution of a model, without those for which a run has decided.
 #[derive(Clone, Debug, Default)]
-pub(super) struct RigidContacts(Vec<usize>);
+pub(super) struct RigidContacts {
+    forces: Vec<usize>,
+    /// The depth up to which each of them counts as touching.
+    slack: Vec<f64>,
+}
 
 impl RigidContacts {
     pub fn of(model: &Model) -> Self {
         let open = |k: &usize| model.forces[*k].mode == Mode::Open && is_rigid(model, *k);
-        Self((0..model.forces.len()).filter(open).list())
+        let forces = (0..model.forces.len()).filter(open).list();
+        let size = if forces.is_empty() { 0.0 } else { size(model) };
+        let slack = forces.iter().map(|k| TOUCHING * unit(model, size, *k)).list();
+        Self { forces, slack }
     }
 
-    /// The first one beyond which a position is, with its gap. It is beyond if the gap is below `-depth`, relative to
-    /// the size of the mechanism or in rad.
-    fn deeper(&self, model: &Model, t: f64, q: &[f64], depth: f64) -> Option<(usize, f64)> {
-        if self.0.is_empty() {
-            return None;
+    /// The gaps at a position.
+    fn gaps(&self, model: &Model, t: f64, q: &[f64], of: &[usize]) -> Vec<f64> {
+        if of.is_empty() {
+            return Vec::new();
         }
         let (motions, z) = (Motions::at_rest(&model.layout, q), vec![0.0; model.layout.n_z]);
         let acting = Acting { z: &z, lam: None, t };
-        let gap = |k: &usize| (*k, forces::threshold(model, *k, &motions, acting));
-        let size = size(model);
-        self.0.iter().map(gap).find(|(k, gap)| *gap < -depth * unit(model, size, *k))
+        of.iter().map(|k| forces::threshold(model, *k, &motions, acting)).list()
     }
 
     /// The first one beyond which a position is: its name and its gap.
     pub fn beyond(&self, model: &Model, t: f64, q: &[f64]) -> Option<(String, f64)> {
-        let (k, gap) = self.deeper(model, t, q, TOUCHING)?;
-        Some((model.forces[k].name.clone(), gap))
+        let gaps = self.gaps(model, t, q, &self.forces);
+        let at = gaps.iter().zip(&self.slack).position(|(gap, slack)| *gap < -slack)?;
+        Some((model.forces[self.forces[at]].name.clone(), gaps[at]))
     }
 
     /// Whether a position is within all of them.
     pub fn allow(&self, model: &Model, t: f64, q: &[f64]) -> bool {
-        self.deeper(model, t, q, 0.0).is_none()
+        !self.gaps(model, t, q, &self.forces).iter().any(|gap| *gap < 0.0)
     }
 
     /// Those that a position touches or is beyond.
     pub fn touched(&self, model: &Model, t: f64, q: &[f64]) -> Self {
-        let closed = |k: &usize| Self(vec![*k]).deeper(model, t, q, -TOUCHING).is_some();
-        Self(self.0.iter().copied().filter(closed).list())
+        let gaps = self.gaps(model, t, q, &self.forces);
+        let all = self.forces.iter().zip(&self.slack).zip(gaps);
+        let closed =
+            all.filter(|((_, slack), gap)| gap < slack).map(|((k, slack), _)| (*k, *slack));
+        let (forces, slack) = closed.unzip();
+        Self { forces, slack }
     }
 
-    /// The gap of one of them at a position, beyond which it [is](Self::beyond) below zero.
-    pub fn margin(&self, model: &Model, (t, q): (f64, &[f64]), index: usize) -> f64 {
-        let (motions, z) = (Motions::at_rest(&model.layout, q), vec![0.0; model.layout.n_z]);
-        let acting = Acting { z: &z, lam: None, t };
-        forces::threshold(model, self.0[index], &motions, acting) + self.slack(model, index)
+    /// The gaps of `some` at a position, beyond which it [is](Self::beyond) below zero.
+    pub fn margins(&self, model: &Model, (t, q): (f64, &[f64]), some: &[usize]) -> Vec<f64> {
+        let forces = some.iter().map(|at| self.forces[*at]).list();
+        let gaps = self.gaps(model, t, q, &forces);
+        some.iter().zip(gaps).map(|(at, gap)| gap + self.slack[*at]).list()
     }
 
     /// The depth up to which one of them counts as touching.
-    pub fn slack(&self, model: &Model, index: usize) -> f64 {
-        TOUCHING * unit(model, size(model), self.0[index])
+    pub fn slack(&self, index: usize) -> f64 {
+        self.slack[index]
     }
 
     /// The indices of the forces.
     pub fn forces(&self) -> &[usize] {
-        &self.0
+        &self.forces
     }
 }

@@ -301,7 +301,9 @@ impl<S: Real> Workspace<S> {
     /// Adds the forces and loads that depend on reactions to the solution without them.
     #[inline(never)] // as above
     fn add_reactive(&mut self, model: &Model<S>, t: S) -> Result<(), Breakdown> {
-        let Some(&row) = self.reactive.first() else { return Ok(()) };
+        if self.reactive.is_empty() {
+            return Ok(());
+        }
         let Self { motions, z, matrix, solution, powers, reactive, memory, .. } = self;
         let (n, padded) = (self.n_q, self.n_unknowns);
         let modified = self.modified || matrix.is_light() || matrix.regularised();
@@ -322,10 +324,7 @@ impl<S: Real> Workspace<S> {
         let mut inertial = vec![S::zero(); n];
         mass::add_times(model, motions, &solution[..n], &mut inertial);
         let force = load_changes::largest(inertial.iter().copied());
-        match sources.add((reactive, padded, force), solution, powers) {
-            true => Ok(()),
-            false => Err(Breakdown::Reaction(row)),
-        }
+        sources.add((reactive, padded, force), solution, powers).map_err(Breakdown::Reaction)
     }
 
     /// Solves K x = b with the factors of the last evaluation. `x` contains b before and the solution afterwards, shape

@@ -257,13 +257,15 @@ impl<'m, S: Real> Sources<'m, S> {
     /// Adds all efforts to a solution without them, and the powers of forces to `powers`. `first` is the index at which
     /// the multipliers begin, `rows` are the rows on which efforts depend, and `force` is a large force of the state.
     ///
-    /// Returns whether there is a solution that follows continuously from the one without these forces.
+    /// # Errors
+    /// If no solution follows continuously from the one without these forces, the row among `rows` whose multiplier has
+    /// grown most.
     pub fn add(
         &self,
         (rows, first, force): (&[usize], usize, f64),
         solution: &mut [S],
         powers: &mut Powers<S>,
-    ) -> bool {
+    ) -> Result<(), usize> {
         let mut efforts = vec![S::zero(); self.all.len()];
         let path = Path { sources: self, rows, free: &solution[first..], first, force };
         let found = path.solve(&mut efforts);
@@ -274,7 +276,13 @@ impl<'m, S: Real> Sources<'m, S> {
                 bearing.add(*e, &mut vec![S::zero(); bearing.model.layout.n_q], powers);
             }
         }
-        found
+        let grown = |row: &usize| largest(std::iter::once(solution[first + row]));
+        let most = rows.iter().copied().max_by(|a, b| grown(a).total_cmp(&grown(b)));
+        if found {
+            Ok(())
+        } else {
+            Err(most.unwrap_or_default())
+        }
     }
 }
 

@@ -122,6 +122,17 @@ impl Failure {
         Reason::Singular { t, name, message }.into()
     }
 
+    /// Failure of a stop, contact or friction whose mode contradicts its motion, although others were tried.
+    pub(super) fn contradiction(model: &Model, t: f64, force: usize) -> Box<Self> {
+        let name = model.forces[force].name.clone();
+        let message = format!(
+            "at t = {t:.6} s no combination was found in which all closed contacts press or separate and all friction \
+             sticks or slides by its law: {name} contradicts it; reduce the friction, or give a stiffness in place of \
+             restitution"
+        );
+        Reason::Singular { t, name, message }.into()
+    }
+
     /// Failure of a contact beyond the end of its curve.
     pub(super) fn off_the_curve(t: f64, message: &str) -> Box<Self> {
         let message = format!("{message} at t = {t:.6} s");

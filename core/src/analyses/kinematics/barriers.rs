@@ -9,7 +9,7 @@ use crate::analyses::curves::Ranges;
 use crate::analyses::rigid::RigidContacts;
 use crate::analyses::step_part::{self, StepPart};
 use crate::integrate::{scan, Bounds, Direction, Interpolant, Step, StepPath, Watch};
-use crate::math::Real;
+use crate::math::{Listed, Real};
 use crate::model::Model;
 
 /// All barriers of a model.
@@ -79,11 +79,11 @@ impl Watch for BarrierMargins<'_> {
     fn values(&mut self, t: f64, y: &[f64], some: &[usize], out: &mut [f64]) {
         let Barriers { contacts, curves } = self.barriers;
         let n = contacts.forces().len();
-        for index in some {
-            out[*index] = match index.checked_sub(n) {
-                None => contacts.margin(self.model, (t, y), *index),
-                Some(k) => curves.margin(k, |column| y[column]),
-            };
+        let closed = some.iter().copied().filter(|index| *index < n).list();
+        let margins = contacts.margins(self.model, (t, y), &closed);
+        closed.iter().zip(margins).for_each(|(index, margin)| out[*index] = margin);
+        for index in some.iter().filter(|index| **index >= n) {
+            out[*index] = curves.margin(index - n, |column| y[column]);
         }
     }
 
@@ -92,7 +92,7 @@ impl Watch for BarrierMargins<'_> {
         let part = StepPart::new(self.model, path, span, &[]);
         match index.checked_sub(contacts.forces().len()) {
             None => {
-                let slack = Bounds::constant(contacts.slack(self.model, index));
+                let slack = Bounds::constant(contacts.slack(index));
                 Some(part.apart(contacts.forces()[index], None)? + slack)
             }
             Some(k) => Some(curves.margin(k, |column| part.column(column, false))),

@@ -134,6 +134,19 @@ impl Contacts {
     /// The impulses that complement these rates, as the limit for rates with a small part of `rest`. Friction may also use
     /// the normal impulses that are `given`.
     pub(super) fn solve(&self, rates: &[f64], given: &[f64], rest: &[f64]) -> Option<Vec<f64>> {
+        self.solve_with(rates, given, rest, 0.0)
+    }
+
+    /// The same, where contacts that slide also separate, with this part of their friction times the sliding. With a part
+    /// of 1 the problem is convex, so that its solution is found (Anitescu, *Optimization-based simulation of nonsmooth rigid
+    /// multibody dynamics*, Math. Program. 105 (2006) 113). It is also one of the law of friction if nothing slides.
+    pub(super) fn solve_with(
+        &self,
+        rates: &[f64],
+        given: &[f64],
+        rest: &[f64],
+        separates: f64,
+    ) -> Option<Vec<f64>> {
         let (n, m) = (self.normals, self.all.len() - self.normals);
         // Λ_N, the two directions of friction, and the slack of each friction
         let column = |k: usize| if k < n + m { (k, 1.0) } else { (k - m, -1.0) };
@@ -155,6 +168,7 @@ impl Contacts {
             (a[n + k][slack], a[n + m + k][slack]) = (1.0, 1.0);
             (a[slack][normal], b[slack]) = (mu, mu * given[normal]);
             (a[slack][n + k], a[slack][n + m + k]) = (-1.0, -1.0);
+            a[normal][slack] = -mu * separates;
         }
         let mut limit = vec![0.0; size];
         limit[..n].copy_from_slice(&rest[..n]);

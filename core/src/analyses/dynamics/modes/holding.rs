@@ -9,7 +9,7 @@ use super::companions;
 use super::dependence::{holders_of_friction, well_led, with_held};
 use super::impacts::{self, restitution};
 use super::place::{drivers_rest, mode_of, scaled, with_modes, StateAt, NOISE, STILL};
-use super::resting_contacts::Together;
+use super::resting_contacts::{resting, together};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
@@ -230,33 +230,36 @@ fn hold(
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
     let sides = place.sides(model, candidates);
     let all: Vec<(usize, f64)> = candidates.iter().copied().zip(sides).list();
-    let found = released(model, place, free.clone(), (&all, ended));
-    let fits = |modes: &[ForceMode]| moves_apart(model, place, modes, candidates);
+    let (found, shared) = released(model, place, free.clone(), (&all, ended));
+    let misfit = |modes: &[ForceMode]| misfit(model, place, modes, candidates);
+    let contradicted = match found {
+        Ok(modes) => match misfit(&modes) {
+            None if !shared => return Ok(modes),
+            None => Ok(modes),
+            Some(force) => Err(Failure::contradiction(model, place.t, force)),
+        },
+        Err(failure) => Err(failure),
+    };
     // friction holds or slides in two directions; a contact rests or is free
     let rubs = |k: &usize| free.iter().any(|of| of.force == *k && of.mode != Mode::Free);
     let ways = candidates.iter().map(|k| if rubs(k) { 3_usize } else { 2 }).list();
     let count = ways.iter().fold(1, |all: usize, own| all.saturating_mul(*own));
-    if found.as_ref().is_ok_and(|modes| fits(modes)) {
-        return found;
-    }
     let tried = |now: &[ForceMode], left: &[(usize, f64)]| {
         let modes = well_led(model, place, now, left);
         let ended = with_leaders(&modes, ended);
         // with friction in contradictory directions there may be no solution
         let reserves = worst(&place.phase(model, &modes), place, &ended);
-        (matches!(reserves, Ok(None)) && fits(&modes)).then_some(modes)
+        (matches!(reserves, Ok(None)) && misfit(&modes).is_none()).then_some(modes)
     };
-    if let Some(mut together) = Together::of(model, place, &free, &all) {
-        for only_pressing in [false, true] {
-            together.only_pressing = only_pressing;
-            let ways = [together.sharing(), together.alone(model, place)];
-            if let Some(modes) = ways.iter().find_map(|(now, left)| tried(now, left)) {
-                return Ok(modes);
-            }
-        }
+    if let Some(modes) = resting((model, place), &free, &all, &tried) {
+        return Ok(modes);
+    }
+    let Err(failure) = contradicted else { return contradicted };
+    if let Some(modes) = together((model, place), &free, &all, &tried) {
+        return Ok(modes);
     }
     if count > MOST_TRIED {
-        return found;
+        return Err(failure);
     }
     // a force that was released early may have to hold after all: all combinations are tried, those in which most
     // forces hold first
@@ -275,23 +278,30 @@ fn hold(
             return Ok(modes);
         }
     }
-    found
+    Err(failure)
 }
 
-/// Releases the force with the largest excess until none exceeds its limit.
+/// Releases the force with the largest excess until none exceeds its limit. Returns also whether some are released although
+/// all of them may hold, because they share their forces in more than one way.
 fn released(
     model: &Model,
     place: &StateAt<'_>,
     mut now: Vec<ForceMode>,
     (all, ended): (&[(usize, f64)], &[usize]),
-) -> Result<Vec<ForceMode>, Box<Failure>> {
-    let mut left = all.to_vec();
+) -> (Result<Vec<ForceMode>, Box<Failure>>, bool) {
+    let (mut left, mut shared) = (all.to_vec(), false);
     loop {
         let modes = well_led(model, place, &now, &left);
-        let ended = with_leaders(&modes, ended);
-        let Some((force, slides)) = worst(&place.phase(model, &modes), place, &ended)? else {
-            return Ok(modes);
+        let share = |(k, _): &(usize, f64)| {
+            matches!(mode_of(&modes, *k), Mode::Follows { .. } | Mode::Idle)
         };
+        let ended = with_leaders(&modes, ended);
+        let (force, slides) = match worst(&place.phase(model, &modes), place, &ended) {
+            Ok(Some(found)) => found,
+            Ok(None) => return (Ok(modes), shared),
+            Err(failure) => return (Err(failure), shared),
+        };
+        shared = shared || left.iter().any(share);
         left.retain(|(k, _)| *k != force);
         let own = now.iter_mut().find(|of| of.force == force).expect("it has modes");
         if let Some(sign) = slides {
@@ -300,24 +310,25 @@ fn released(
     }
 }
 
-/// Whether the free contacts among the candidates separate, and sliding friction moves in its direction.
-fn moves_apart(
+/// The first candidate that contradicts its mode: a free contact that closes, or friction that slides against its
+/// direction. If the equations have no solution, it is any of them.
+fn misfit(
     model: &Model,
     place: &StateAt<'_>,
     modes: &[ForceMode],
     candidates: &[usize],
-) -> bool {
+) -> Option<usize> {
     let phase = place.phase(model, modes);
-    let Ok(workspace) = place.solved(&phase) else { return false };
+    let Ok(workspace) = place.solved(&phase) else { return candidates.first().copied() };
     let still = STILL * scaled(&phase, workspace.a());
     let gaps = place.gap_jets(model, candidates, workspace.a());
-    let fits = |(k, jet): (&usize, Jet)| match mode_of(modes, *k) {
-        Mode::Free if model.forces[*k].is_companion => true,
-        Mode::Free => jet.second >= -still * place.unit(model, *k),
-        Mode::Slides(sign) => sign * jet.rate >= -still * place.unit(model, *k),
+    let fits = |(k, jet): &(&usize, Jet)| match mode_of(modes, **k) {
+        Mode::Free if model.forces[**k].is_companion => true,
+        Mode::Free => jet.second >= -still * place.unit(model, **k),
+        Mode::Slides(sign) => sign * jet.rate >= -still * place.unit(model, **k),
         _ => true,
     };
-    candidates.iter().zip(gaps).all(fits)
+    candidates.iter().zip(gaps).find(|own| !fits(own)).map(|(k, _)| *k)
 }
 
 /// The forces that ended, and the forces that they follow. All of them have reached their limits.

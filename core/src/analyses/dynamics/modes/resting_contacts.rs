@@ -15,8 +15,50 @@ use crate::model::{ForceMode, Model};
 /// Numbers below this one count as zero. The largest number of a problem is 1.
 const ZERO: f64 = 1e-9;
 
+/// Modes with the candidates that hold, which are tried: None if they contradict their laws.
+type Tried<'a> = dyn Fn(&[ForceMode], &[(usize, f64)]) -> Option<Vec<ForceMode>> + 'a;
+
+/// The modes in which all candidates rest, if their forces can be shared so that all are within their limits.
+pub(super) fn resting(
+    (model, place): (&Model, &StateAt<'_>),
+    free: &[ForceMode],
+    all: &[(usize, f64)],
+    tried: &Tried<'_>,
+) -> Option<Vec<ForceMode>> {
+    let found = Together::of((model, place), free, all, (1, 1.0))?;
+    found.rests().then(|| found.in_modes((model, place), tried))?
+}
+
+/// The modes of all closed contacts together, if they can be `tried`. Friction begins to slide where it exceeds the limit of
+/// sticking. It then has the coefficient of sliding, with which other friction may have to hold or to slide.
+pub(super) fn together(
+    (model, place): (&Model, &StateAt<'_>),
+    free: &[ForceMode],
+    all: &[(usize, f64)],
+    tried: &Tried<'_>,
+) -> Option<Vec<ForceMode>> {
+    for coefficient in [1, 0] {
+        let (mut now, mut left) = (free.to_vec(), all.to_vec());
+        while let Some(found) = Together::of((model, place), &now, &left, (coefficient, 0.0)) {
+            let weakened = found.weakened(model);
+            if let Some(modes) = found.in_modes((model, place), tried) {
+                return Some(modes);
+            }
+            if weakened.is_empty() {
+                break;
+            }
+            for (force, sign) in weakened {
+                left.retain(|(k, _)| *k != force);
+                let own = now.iter_mut().find(|of| of.force == force).expect("it has modes");
+                own.mode = Mode::Slides(sign);
+            }
+        }
+    }
+    None
+}
+
 /// A solution for the contacts among the candidates and their friction.
-pub(super) struct Together<'a> {
+struct Together<'a> {
     free: &'a [ForceMode],
     candidates: &'a [(usize, f64)],
     found: Contacts,
@@ -25,16 +67,18 @@ pub(super) struct Together<'a> {
     after: Vec<f64>,
     most: f64,
     /// Contacts without force separate. They may have no acceleration but rounding errors, as between bodies that fall.
-    pub only_pressing: bool,
+    only_pressing: bool,
 }
 
 impl<'a> Together<'a> {
     /// None if there is no solution, or no contact among the candidates. All other forces are in the modes `free`.
-    pub fn of(
-        model: &Model,
-        place: &StateAt<'_>,
+    /// Friction that may stick has the coefficient at this place among its [own](crate::elements::ForceElement::coefficients).
+    /// For `separates` see [`Contacts::solve_with`].
+    fn of(
+        (model, place): (&Model, &StateAt<'_>),
         free: &'a [ForceMode],
         candidates: &'a [(usize, f64)],
+        (coefficient, separates): (usize, f64),
     ) -> Option<Self> {
         let is_rigid = |k: &usize| is_contact(model, *k) && !model.forces[*k].is_companion;
         let contacts: Vec<usize> = candidates.iter().map(|(k, _)| *k).filter(is_rigid).list();
@@ -45,7 +89,12 @@ impl<'a> Together<'a> {
             Mode::Slides(sign) => Some(sign),
             _ => Some(rate.signum()),
         };
-        let found = Contacts::within(model, &others, place, &contacts).ok()?.with_sliding(&slides);
+        let mut found =
+            Contacts::within(model, &others, place, &contacts).ok()?.with_sliding(&slides);
+        for own in &mut found.all {
+            let coefficients = model.forces[own.force].element.coefficients();
+            own.of = own.of.map(|(contact, _)| (contact, coefficients[coefficient]));
+        }
         let forces: Vec<usize> = found.all.iter().map(|own| own.force).list();
         let apart = place.solved(&model.in_modes(&others)).ok()?;
         let jets = place.gap_jets(model, &forces, apart.a());
@@ -54,7 +103,7 @@ impl<'a> Together<'a> {
         let scale = largest(&onset).max(f64::MIN_POSITIVE);
         let onset: Vec<f64> = onset.iter().map(|x| x / scale).list();
         let none = vec![0.0; forces.len()];
-        let solved = found.solve(&onset, &none, &none)?;
+        let solved = found.solve_with(&onset, &none, &none, separates)?;
         let after = found.after(&onset, &solved);
         let most = largest(&solved).max(1.0);
         Some(Self { free, candidates, found, solved, after, most, only_pressing: false })
@@ -71,9 +120,38 @@ impl<'a> Together<'a> {
         presses && after <= ZERO
     }
 
+    /// Whether all contacts stay closed and all friction sticks.
+    fn rests(&self) -> bool {
+        (0..self.after.len()).all(|at| self.stays(at))
+    }
+
+    /// The modes of this solution that can be `tried`.
+    fn in_modes(
+        mut self,
+        (model, place): (&Model, &StateAt<'_>),
+        tried: &Tried<'_>,
+    ) -> Option<Vec<ForceMode>> {
+        [false, true].into_iter().find_map(|only_pressing| {
+            self.only_pressing = only_pressing;
+            let ways = [self.sharing(), self.alone(model, place)];
+            ways.iter().find_map(|(now, left)| tried(now, left))
+        })
+    }
+
+    /// The friction among the candidates that slides, with its direction, where sliding has another coefficient.
+    fn weakened(&self, model: &Model) -> Vec<(usize, f64)> {
+        let of = |at: usize| {
+            let own = &self.found.all[at];
+            let kinetic = model.forces[own.force].element.coefficients()[0];
+            let differs = own.of.is_some_and(|(_, mu)| mu != kinetic);
+            (differs && !self.stays(at)).then_some((own.force, self.after[at].signum()))
+        };
+        (self.found.normals..self.after.len()).filter_map(of).list()
+    }
+
     /// The candidates that hold, those with the largest forces first, and the modes of the others. Friction that sticks
     /// shares its forces.
-    pub fn sharing(&self) -> (Vec<ForceMode>, Vec<(usize, f64)>) {
+    fn sharing(&self) -> (Vec<ForceMode>, Vec<(usize, f64)>) {
         let mut modes = self.free.to_vec();
         for own in &mut modes {
             let Some(at) = self.at(own.force).filter(|at| *at >= self.found.normals) else {
@@ -92,7 +170,7 @@ impl<'a> Together<'a> {
 
     /// The same, but only friction between its limits holds. Its equations are independent, because the solution is a vertex
     /// of all solutions. Other friction that sticks has no force, or that of its limit.
-    pub fn alone(&self, model: &Model, place: &StateAt<'_>) -> (Vec<ForceMode>, Vec<(usize, f64)>) {
+    fn alone(&self, model: &Model, place: &StateAt<'_>) -> (Vec<ForceMode>, Vec<(usize, f64)>) {
         let (mut modes, mut left) = self.sharing();
         let ends = |at: usize| -> Option<Mode> {
             let (contact, mu) = self.found.all[at].of?;
