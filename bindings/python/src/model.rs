@@ -154,6 +154,7 @@ pub fn written_modes(modes: &[ForceMode]) -> Vec<WrittenMode> {
             Mode::Idle => ("idle", 0.0, 0),
             Mode::Slides(sign) => ("slides", sign, 0),
             Mode::Holds(side) => ("holds", side, 0),
+            Mode::Carries(share) => ("carries", share, 0),
             Mode::Follows { leader, sense } => ("follows", sense, leader),
         };
         (of.force, name.to_string(), sign, leader, of.value)
@@ -184,6 +185,7 @@ fn read_mode(
         "idle" => Mode::Idle,
         "slides" => Mode::Slides(*sign),
         "holds" => Mode::Holds(*sign),
+        "carries" => Mode::Carries(*sign),
         "follows" => Mode::Follows { leader: *leader, sense: *sign },
         _ => return Err(refuse(py, "modes", format!("there is no mode '{name}'"))),
     };

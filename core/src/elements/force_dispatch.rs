@@ -256,7 +256,7 @@ macro_rules! forces {
             }
             fn reserve_of_force(&self, at: &Situation<'_, S>) -> S {
                 match (at.mode, self.behaviour()) {
-                    (Mode::Holds(_), Some(Behaviour::Sticks)) => {
+                    (Mode::Holds(_) | Mode::Carries(_), Some(Behaviour::Sticks)) => {
                         let left = self.limit(at).0 - at.multiplier.abs();
                         if self.only_pushes() { left.min(-at.multiplier) } else { left }
                     }

@@ -18,6 +18,9 @@ pub enum Mode {
     /// A contact that rests, or friction that sticks, without its own equation, because the equations of other
     /// elements hold it already.
     Idle,
+    /// Friction that sticks without its own equation, as [`Self::Idle`], and carries this share of the forces: the multiplier
+    /// that its equation would have.
+    Carries(f64),
     /// Friction that sticks together with the friction of the force `leader`. Both carry the same fraction of their
     /// limits. `sense` is the sign of its speed for a positive speed of the leader.
     Follows {
@@ -31,7 +34,7 @@ pub enum Mode {
 impl Mode {
     /// Whether friction sticks, or a contact rests.
     pub fn holds(self) -> bool {
-        matches!(self, Self::Holds(_) | Self::Idle | Self::Follows { .. })
+        matches!(self, Self::Holds(_) | Self::Idle | Self::Carries(_) | Self::Follows { .. })
     }
 }
 

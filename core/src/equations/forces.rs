@@ -167,6 +167,7 @@ pub(super) fn situation<'a, S: Real>(
         (Mode::Follows { leader, sense }, Some(_)) => {
             following(model, k, (leader, sense), motions, Acting { z, lam, t })
         }
+        (Mode::Carries(share), _) => S::constant(share),
         _ => S::zero(),
     };
     let (bodies, mode) = (&item.bodies, item.mode);

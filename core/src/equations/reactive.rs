@@ -192,7 +192,7 @@ impl<'m, S: Real> Sources<'m, S> {
         let mut direction = vec![S::zero(); model.layout.n_q];
         for (own, bearing) in bearings.iter().enumerate() {
             let effort = match model.forces[bearing.force].mode {
-                Mode::Holds(_) | Mode::Idle => continue,
+                Mode::Holds(_) | Mode::Idle | Mode::Carries(_) => continue,
                 Mode::Follows { leader, sense } => {
                     let row = model.forces[leader].held_row;
                     let (leader, row) = place(leader).zip(row).expect("it takes part and holds");

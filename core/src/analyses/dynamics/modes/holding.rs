@@ -244,8 +244,7 @@ fn hold(
     let rubs = |k: &usize| free.iter().any(|of| of.force == *k && of.mode != Mode::Free);
     let ways = candidates.iter().map(|k| if rubs(k) { 3_usize } else { 2 }).list();
     let count = ways.iter().fold(1, |all: usize, own| all.saturating_mul(*own));
-    let tried = |now: &[ForceMode], left: &[(usize, f64)]| {
-        let modes = well_led(model, place, now, left);
+    let tried = |modes: Vec<ForceMode>| {
         let ended = with_leaders(&modes, ended);
         // with friction in contradictory directions there may be no solution
         let reserves = worst(&place.phase(model, &modes), place, &ended);
@@ -274,7 +273,7 @@ fn hold(
                 _ => {}
             }
         }
-        if let Some(modes) = tried(&now, &left) {
+        if let Some(modes) = tried(well_led(model, place, &now, &left)) {
             return Ok(modes);
         }
     }
@@ -320,7 +319,9 @@ fn misfit(
 ) -> Option<usize> {
     let phase = place.phase(model, modes);
     let Ok(workspace) = place.solved(&phase) else { return candidates.first().copied() };
-    let still = STILL * scaled(&phase, workspace.a());
+    // where the forces keep the mechanism at rest, its accelerations are rounding errors of those without them
+    let free = place.solved(model).map_or(0.0, |free| scaled(model, free.a()));
+    let still = STILL * scaled(&phase, workspace.a()).max(free);
     let gaps = place.gap_jets(model, candidates, workspace.a());
     let fits = |(k, jet): &(&usize, Jet)| match mode_of(modes, **k) {
         Mode::Free if model.forces[**k].is_companion => true,

@@ -88,7 +88,11 @@ impl ModeFunction {
                 S::constant(sign) * threshold(force) + S::constant(slack)
             }
             Self::Reserve { force, slack } => {
-                let own = forces::reserve(model, force, seen.motions, acting) + S::constant(slack);
+                let own = forces::reserve(model, force, seen.motions, acting);
+                if let Mode::Carries(_) = model.forces[force].mode {
+                    return own.min(S::constant(slack) - threshold(force).abs());
+                }
+                let own = own + S::constant(slack);
                 let lead = leading::lead(model, force, seen.motions, acting, slack);
                 lead.map_or(own, |lead| own.min(lead))
             }
@@ -139,7 +143,7 @@ pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction,
         // the others that hold it may move apart or together
         (Some(Behaviour::Impacts { .. }), Mode::Idle, 0) => (gap, falling),
         (Some(Behaviour::Impacts { .. }), Mode::Idle, 1) => (threshold(-1.0), falling),
-        (Some(_), Mode::Holds(_), 1) => (reserve, falling),
+        (Some(_), Mode::Holds(_), 1) | (_, Mode::Carries(_), 1) => (reserve, falling),
         (Some(Behaviour::Sticks), Mode::Idle | Mode::Follows { .. }, 1) => {
             (ModeFunction::Begins { force, at: slack, held_by }, falling)
         }

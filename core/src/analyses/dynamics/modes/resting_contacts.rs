@@ -6,7 +6,7 @@
 
 use super::closed_contacts::Contacts;
 use super::companions::contact_of;
-use super::dependence::begins;
+use super::dependence::{begins, holders, well_led, with_held};
 use super::place::{is_contact, largest, mode_of, StateAt};
 use crate::elements::Mode;
 use crate::math::{Listed, Ordered};
@@ -15,8 +15,12 @@ use crate::model::{ForceMode, Model};
 /// Numbers below this one count as zero. The largest number of a problem is 1.
 const ZERO: f64 = 1e-9;
 
-/// Modes with the candidates that hold, which are tried: None if they contradict their laws.
-type Tried<'a> = dyn Fn(&[ForceMode], &[(usize, f64)]) -> Option<Vec<ForceMode>> + 'a;
+/// Parts of the limits of friction. Friction at rest shares its forces so that it needs the least of them; what is left of
+/// the limit keeps it at rest while forces change a little.
+const PARTS: [f64; 6] = [0.25, 0.5, 0.75, 0.9, 0.99, 0.999];
+
+/// Modes that are tried: None if they contradict their laws.
+type Tried<'a> = dyn Fn(Vec<ForceMode>) -> Option<Vec<ForceMode>> + 'a;
 
 /// The modes in which all candidates rest, if their forces can be shared so that all are within their limits.
 pub(super) fn resting(
@@ -25,8 +29,10 @@ pub(super) fn resting(
     all: &[(usize, f64)],
     tried: &Tried<'_>,
 ) -> Option<Vec<ForceMode>> {
-    let found = Together::of((model, place), free, all, (1, 1.0))?;
-    found.rests().then(|| found.in_modes((model, place), tried))?
+    let found = PARTS.iter().find_map(|part| {
+        Together::of((model, place), free, all, (1, *part), 1.0).filter(Together::rests)
+    })?;
+    tried(found.at_rest(model, place)?)
 }
 
 /// The modes of all closed contacts together, if they can be `tried`. Friction begins to slide where it exceeds the limit of
@@ -39,7 +45,7 @@ pub(super) fn together(
 ) -> Option<Vec<ForceMode>> {
     for coefficient in [1, 0] {
         let (mut now, mut left) = (free.to_vec(), all.to_vec());
-        while let Some(found) = Together::of((model, place), &now, &left, (coefficient, 0.0)) {
+        while let Some(found) = Together::of((model, place), &now, &left, (coefficient, 1.0), 0.0) {
             let weakened = found.weakened(model);
             if let Some(modes) = found.in_modes((model, place), tried) {
                 return Some(modes);
@@ -65,6 +71,8 @@ struct Together<'a> {
     /// The forces of the contacts, and the accelerations with them.
     solved: Vec<f64>,
     after: Vec<f64>,
+    /// The unit of the forces and accelerations, and the largest force, at least 1.
+    scale: f64,
     most: f64,
     /// Contacts without force separate. They may have no acceleration but rounding errors, as between bodies that fall.
     only_pressing: bool,
@@ -72,13 +80,15 @@ struct Together<'a> {
 
 impl<'a> Together<'a> {
     /// None if there is no solution, or no contact among the candidates. All other forces are in the modes `free`.
-    /// Friction that may stick has the coefficient at this place among its [own](crate::elements::ForceElement::coefficients).
+    /// Friction that may stick has a part of the coefficient at this place among its
+    /// [own](crate::elements::ForceElement::coefficients).
     /// For `separates` see [`Contacts::solve_with`].
     fn of(
         (model, place): (&Model, &StateAt<'_>),
         free: &'a [ForceMode],
         candidates: &'a [(usize, f64)],
-        (coefficient, separates): (usize, f64),
+        (coefficient, part): (usize, f64),
+        separates: f64,
     ) -> Option<Self> {
         let is_rigid = |k: &usize| is_contact(model, *k) && !model.forces[*k].is_companion;
         let contacts: Vec<usize> = candidates.iter().map(|(k, _)| *k).filter(is_rigid).list();
@@ -93,7 +103,7 @@ impl<'a> Together<'a> {
             Contacts::within(model, &others, place, &contacts).ok()?.with_sliding(&slides);
         for own in &mut found.all {
             let coefficients = model.forces[own.force].element.coefficients();
-            own.of = own.of.map(|(contact, _)| (contact, coefficients[coefficient]));
+            own.of = own.of.map(|(contact, _)| (contact, part * coefficients[coefficient]));
         }
         let forces: Vec<usize> = found.all.iter().map(|own| own.force).list();
         let apart = place.solved(&model.in_modes(&others)).ok()?;
@@ -106,7 +116,7 @@ impl<'a> Together<'a> {
         let solved = found.solve_with(&onset, &none, &none, separates)?;
         let after = found.after(&onset, &solved);
         let most = largest(&solved).max(1.0);
-        Some(Self { free, candidates, found, solved, after, most, only_pressing: false })
+        Some(Self { free, candidates, found, solved, after, scale, most, only_pressing: false })
     }
 
     fn at(&self, force: usize) -> Option<usize> {
@@ -125,6 +135,41 @@ impl<'a> Together<'a> {
         (0..self.after.len()).all(|at| self.stays(at))
     }
 
+    /// The modes in which all candidates rest with these forces. Friction without an equation of its own carries its share.
+    /// None if a driver decides whether it slides.
+    fn at_rest(&self, model: &Model, place: &StateAt<'_>) -> Option<Vec<ForceMode>> {
+        let force = |k: usize| self.at(k).map_or(0.0, |at| self.solved[at]);
+        let part = |k: usize| {
+            let own = &self.found.all[self.at(k)?];
+            let (contact, mu) = own.of?;
+            let limit = mu * self.found.all[contact].unit * self.solved[contact];
+            Some(if limit > 0.0 { (force(k) * own.unit / limit).abs() } else { 0.0 })
+        };
+        // contacts without force separate, and friction that needs most of its limit has an equation of its own
+        let presses = |(k, _): &(usize, f64)| {
+            let normal = self.at(*k).filter(|at| *at < self.found.normals);
+            normal.is_none_or(|at| self.solved[at] > ZERO * self.most)
+        };
+        let mut left = self.candidates.iter().copied().filter(presses).list();
+        left.order_by(|(a, _), (b, _)| match (part(*a), part(*b)) {
+            (Some(a), Some(b)) => b.total_cmp(&a),
+            (None, None) => force(*b).total_cmp(&force(*a)),
+            (a, b) => a.is_some().cmp(&b.is_some()),
+        });
+        let mut modes = with_held(model, place, self.free, &left);
+        let shares = |own: &&mut ForceMode| {
+            matches!(own.mode, Mode::Follows { .. } | Mode::Idle) && part(own.force).is_some()
+        };
+        for own in modes.iter_mut().filter(shares) {
+            if !holders(model, place, own.force).is_empty() {
+                return None;
+            }
+            let at = self.at(own.force)?;
+            own.mode = Mode::Carries(-self.scale * self.solved[at] * self.found.all[at].unit);
+        }
+        Some(modes)
+    }
+
     /// The modes of this solution that can be `tried`.
     fn in_modes(
         mut self,
@@ -134,7 +179,7 @@ impl<'a> Together<'a> {
         [false, true].into_iter().find_map(|only_pressing| {
             self.only_pressing = only_pressing;
             let ways = [self.sharing(), self.alone(model, place)];
-            ways.iter().find_map(|(now, left)| tried(now, left))
+            ways.iter().find_map(|(now, left)| tried(well_led(model, place, now, left)))
         })
     }
 
