@@ -1,4 +1,4 @@
-"""Piles of discs with friction rest exactly where a linear program finds forces within the limits."""
+"""Piles of discs with friction rest where a linear program finds forces within the limits."""
 
 import kempe as kp
 import numpy as np
@@ -50,7 +50,9 @@ class Pile:
         for name, one, other, _ in self.contacts:
             curve = "ground.floor" if other is None else f"{other}.rim"
             m.contact(name, f"{one}.C", curve, radius=self.size, **laws)
-        start = {f"{name}.{x}": float(at["xy".index(x)]) for name, at in self.at.items() for x in "xy"}
+        start = {
+            f"{name}.{x}": float(at["xy".index(x)]) for name, at in self.at.items() for x in "xy"
+        }
         return m, start
 
     def balances(self, mu: float) -> bool:
@@ -98,7 +100,7 @@ class Pile:
 ALL = [
     (rows, apart, tilt, SCALES[(rows + k) % 3])
     for rows in (2, 3, 4, 5)
-    for k, (apart, tilt) in enumerate([(0, 0), (1e-3, 0), (0.1, 0.05), (0, 0.03), (0.02, 0)])
+    for k, (apart, tilt) in enumerate([(0, 0), (1e-3, 0), (0.1, 0), (0, 0.02), (0.02, 0)])
 ]
 SOME = [ALL[k] for k in (2, 5, 8, 10, 11)]
 
@@ -114,3 +116,8 @@ def test_a_pile_rests_where_its_forces_balance(
         sol = kp.dynamics(m, kp.assemble(m, set=at), t_end=time, output_step=time)
         moved = max(float(np.ptp(sol[f"{name}.{x}"])) for name in pile.at for x in "xy")
         assert (moved < 1e-9 * pile.size) == (static > 1), (static, moved / pile.size)
+        weight = G * sum(pile.mass.values())
+        for name in m.forces if static > 1 else ():
+            normal, along = sol[f"{name}.force"], sol[f"{name}.tangential"]
+            assert np.all(np.abs(along) <= static * least * normal + 1e-9 * weight), name
+            assert np.min(normal) > -1e-9 * weight, name
