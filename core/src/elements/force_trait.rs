@@ -234,7 +234,7 @@ pub trait Force: Element {
     /// Number of switches of an element. A switch is a function of the situation at whose zeros the action is not
     /// smooth.
     #[inline]
-    fn switch_count<S>(e: &Self::Over<S>) -> usize {
+    fn switch_count<S: Real>(e: &Self::Over<S>) -> usize {
         let _ = e;
         0
     }

@@ -2,9 +2,10 @@
 //!
 //! For a compliant contact with the depth δ = -gap, the normal force N follows from the law in `hertz.rs`. N acts at the
 //! nearest point C(u) of the curve, on body j along -ν and on body i along ν, where ν is the normal away from body j.
-//! With v₀, the friction force on body i at C(u) is -μ N tanh(v/v₀) along growing u, with the tangential velocity v of
-//! body i relative to body j. Without v₀, the friction slides and sticks; it is an element of its own, the companion of
-//! the contact. With a coefficient of restitution, there is no depth, and N is the multiplier of the contact at rest.
+//! With v₀, the friction force on body i is -μ N tanh(v/v₀) along growing u, with the tangential velocity v of body i
+//! relative to body j. It acts at C(u), and between two circles or smooth curves in the middle of the depth. Without v₀,
+//! the friction slides and sticks; it is an element of its own, the companion of the contact. With a coefficient of
+//! restitution, there is no depth, and N is the multiplier of the contact at rest.
 
 use super::hertz::{Compliance, Hertz, Normal, SWITCHES};
 use super::touch::{CurveTouch, TouchPoint};
@@ -171,6 +172,12 @@ impl<S: Real> Pressing<'_, S> {
         }
     }
 
+    /// Whether the sense of the sliding is a switch, because the rates of the [states](STATES) bend where it changes.
+    /// Friction that sticks has events there.
+    fn wears_both_ways(&self) -> bool {
+        self.velocity.is_some() && self.wear.largest_magnitude() > 0.0
+    }
+
     /// The rates of the [states](STATES); those of wear after Archard (*Contact and rubbing of flat surfaces*, J. Appl.
     /// Phys. 24 (1953) 981).
     fn wearing(&self, at: &Situation<'_, S>, out: &mut [S]) {
@@ -178,7 +185,11 @@ impl<S: Real> Pressing<'_, S> {
         let [distance, volume, ..] = out else { return };
         let touch = self.point(at);
         let Some(normal) = self.normal(at, &touch).map(Normal::sum) else { return };
-        let speed = at.choose(0, -touch.gap, touch.sliding.abs(), S::zero());
+        let speed = match self.wears_both_ways() {
+            true => at.choose(SWITCHES, touch.sliding, touch.sliding, -touch.sliding),
+            false => touch.sliding.abs(),
+        };
+        let speed = at.choose(0, -touch.gap, speed, S::zero());
         (*distance, *volume) = (speed, self.wear * normal * speed);
     }
 
@@ -304,18 +315,21 @@ impl<E: Presses> Force for E {
         }
     }
 
-    fn switch_count<S>(e: &E::Over<S>) -> usize {
-        if E::is_compliant(e) {
-            SWITCHES
-        } else {
-            0
+    fn switch_count<S: Real>(e: &E::Over<S>) -> usize {
+        match E::is_compliant(e) {
+            true => SWITCHES + usize::from(E::pressing(e).wears_both_ways()),
+            false => 0,
         }
     }
 
     fn switches<S: Real>(e: &E::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
         let own = E::pressing(e);
         if let Some(law) = own.law() {
-            law.switches(at, own.point(at).depth(), out);
+            let touch = own.point(at);
+            law.switches(at, touch.depth(), out);
+            if let Some(sense) = out.get_mut(SWITCHES) {
+                *sense = S::select(-touch.gap, touch.sliding, S::one());
+            }
         }
     }
 

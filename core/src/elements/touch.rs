@@ -110,9 +110,21 @@ impl<S: Real> CurveTouch<'_, S> {
         }
     }
 
-    /// The state with the nearest point C(u) as place of action.
+    /// The state with the nearest point C(u) as place of action. Between two circles or two smooth curves, the place is
+    /// the middle of the depth, whichever of them is that of body i.
     pub fn at_foot(&self, at: &Situation<'_, S>) -> TouchPoint<S> {
-        self.at(at, |near| (near.distance, S::one()))
+        let half = S::constant(0.5);
+        self.at(at, |near| {
+            let middle = half * (near.distance + self.radius);
+            let place = match (&self.curve.on.curve, &self.curve.mate) {
+                (Curve::Circle { .. }, _) => {
+                    S::select(self.radius * self.radius, middle, near.distance)
+                }
+                (Curve::Line { .. } | Curve::Polygon(_), _) | (_, None) => near.distance,
+                _ => half * near.distance,
+            };
+            (place, S::one())
+        })
     }
 
     /// The state with the pitch point as place of action.

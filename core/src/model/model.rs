@@ -217,6 +217,17 @@ fn forces<S: Real>(
     all
 }
 
+impl<S: Real> Model<S> {
+    /// The places of the states in z that change with time. Sampled laws and speeds of impact change at instants only.
+    pub fn changing_states(&self) -> Vec<usize> {
+        let own = self.forces.iter().zip(&self.layout.states);
+        let speeds = own.filter(|(item, _)| item.element.keeps_speed()).map(|(_, own)| own.end - 1);
+        let speeds: Vec<usize> = speeds.list();
+        let still = |at: &usize| self.layout.held.contains(at) || speeds.contains(at);
+        (0..self.layout.n_z).filter(|at| !still(at)).list()
+    }
+}
+
 impl<S> Model<S> {
     /// A body by name. The first end of a beam, such as `rod.A`, is a name of its first node.
     pub fn body(&self, name: &str) -> Option<BodyId> {

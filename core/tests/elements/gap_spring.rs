@@ -33,7 +33,7 @@ impl Force for GapSpring {
         vec![e.i, e.j]
     }
 
-    fn switch_count<S>(_: &GapSpring<S>) -> usize {
+    fn switch_count<S: Real>(_: &GapSpring<S>) -> usize {
         2
     }
 

@@ -35,7 +35,7 @@ impl Force for Overload {
         Some(e.joint)
     }
 
-    fn switch_count<S>(_: &Overload<S>) -> usize {
+    fn switch_count<S: Real>(_: &Overload<S>) -> usize {
         1
     }
 

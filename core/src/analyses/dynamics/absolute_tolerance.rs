@@ -31,11 +31,16 @@ impl AbsoluteTolerance {
 }
 
 /// The kind of each component of (q, v, z), as an index into [`TOLERANCES`], and its scale. The tolerance of a place on
-/// a curve is that of lengths, in proportion to its scale.
+/// a curve is that of lengths, in proportion to its scale. The scale of a state that is a length is the size.
 fn components(model: &Model) -> Vec<(usize, f64)> {
     let lengths = model.layout.lengths().into_iter().map(|length| usize::from(!length));
     let of_q: Vec<(usize, f64)> = lengths.zip(column_scales(model)).list();
-    let states = std::iter::repeat_n((2, 1.0), model.layout.n_z);
+    let mut states = vec![(2, 1.0); model.layout.n_z];
+    for (item, places) in model.forces.iter().zip(&model.layout.states) {
+        for (own, (_, scale)) in item.states.iter().zip(&mut states[places.clone()]) {
+            *scale = if own.unit == "m" { size(model) } else { 1.0 };
+        }
+    }
     of_q.clone().into_iter().chain(of_q).chain(states).list()
 }
 
@@ -81,8 +86,9 @@ impl OptionKind for absolute_tolerance {
             }
             Some(all)
         })?;
-        let units = [size(model), 1.0, 1.0];
-        let one = |(k, scale): (usize, f64)| (own[k].map(|own| own * (scale / units[k])), scale);
+        let unit = |k: usize, scale: f64| [size(model), 1.0, scale][k];
+        let one =
+            |(k, scale): (usize, f64)| (own[k].map(|own| own * (scale / unit(k, scale))), scale);
         Some(AbsoluteTolerance::ByKind(components(model).into_iter().map(one).list()))
     }
 }

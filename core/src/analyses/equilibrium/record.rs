@@ -208,7 +208,7 @@ impl From<Reason> for Outcome {
             }
             Reason::NotFinite => outcome(
                 ErrorClass::Integration,
-                "check the laws of the forces at rest, such as a division by a rate",
+                "check the laws of the forces at rest, such as a division by a rate, and the depths of contacts",
             ),
             Reason::State { name } => {
                 outcome(ErrorClass::Singularity, "its rate must depend on it").name(name)

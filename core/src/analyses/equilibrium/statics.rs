@@ -70,12 +70,6 @@ const NEVER: &dyn Fn() -> bool = &|| false;
 impl<'a> Statics<'a> {
     pub fn new(model: &'a Model, t: f64) -> Self {
         let layout = &model.layout;
-        let kept = |at: &usize| {
-            let own = model.forces.iter().zip(&layout.states).find(|(_, own)| own.contains(at));
-            own.is_some_and(|(item, own)| item.element.keeps_speed() && at + 1 == own.end)
-        };
-        let all = (0..layout.n_z).filter(|at| !layout.held.contains(at) && !kept(at));
-        let states = all.list();
         Self {
             closing: Closing::new(model, t, NEVER),
             balance: Balance::new(model),
@@ -83,7 +77,7 @@ impl<'a> Statics<'a> {
             none: vec![0.0; layout.n_rows],
             columns: column_scales(model),
             rows: row_scales(model),
-            states,
+            states: model.changing_states(),
             redundant: model.allow_redundancy,
             conservative: is_conservative(model),
             model,

@@ -33,7 +33,7 @@ const CLOSED: f64 = 1e-6;
 pub struct Linearization {
     /// Indices of the independent coordinates in q, shape (f).
     pub coordinates: Vec<usize>,
-    /// Indices of the states in z that belong to x. The values of sampled laws do not belong to x.
+    /// Indices of the states in z that belong to x. Those that do not change with time are not in x.
     pub states: Vec<usize>,
     /// N by columns, each of shape (n_q).
     pub basis: Vec<Vec<f64>>,
@@ -149,8 +149,7 @@ struct LinearEquations<'a> {
 impl LinearEquations<'_> {
     fn all(self, inputs: &[Input]) -> Result<Linearization, Failure> {
         let Self { model, ref linear, at, .. } = self;
-        let held = &model.layout.held;
-        let states: Vec<usize> = (0..at.z.len()).filter(|place| !held.contains(place)).list();
+        let states = model.changing_states();
         let basis = &linear.freedoms.basis;
         let f = basis.len();
         let mut of_state: Vec<Column> = Vec::with_capacity(2 * f + states.len());

@@ -234,7 +234,7 @@ impl Force for LooseBelt {
         out.put(STRANDS, 1, Wrench::at(from_j, -together));
     }
 
-    fn switch_count<S>(e: &LooseBelt<S>) -> usize {
+    fn switch_count<S: Real>(e: &LooseBelt<S>) -> usize {
         if e.is_elastic {
             2
         } else {

@@ -162,7 +162,7 @@ impl Force for SpringDamper {
     }
 
     #[inline]
-    fn switch_count<S>(e: &SpringDamper<S>) -> usize {
+    fn switch_count<S: Real>(e: &SpringDamper<S>) -> usize {
         match e.only {
             None => 0,
             Some(_) => 3,

@@ -147,7 +147,7 @@ impl Force for Stop {
         }
     }
 
-    fn switch_count<S>(e: &Stop<S>) -> usize {
+    fn switch_count<S: Real>(e: &Stop<S>) -> usize {
         let limits = usize::from(e.lower.is_some()) + usize::from(e.upper.is_some());
         if e.stiffness.is_some() {
             SWITCHES * limits

@@ -42,18 +42,13 @@ impl SwitchForm {
                 if let Some(law) = &item.law {
                     law.visit(&mut look);
                 }
-                // a contact has two switches: its onset, and the sign of its force
+                // a contact has two switches: its onset, and the sign of its force; that of its sliding may follow
                 let contacts = item.element.clearances().len();
+                let behaviour = item.element.behaviour();
+                let compliant = matches!(behaviour, Some(Behaviour::Compliant { .. }));
                 match switch.checked_sub(item.first_switch) {
                     Some(own) if own % 2 == 0 && own / 2 < contacts => Self::Clearance(k, own / 2),
-                    Some(own)
-                        if matches!(
-                            item.element.behaviour(),
-                            Some(Behaviour::Compliant { .. })
-                        ) =>
-                    {
-                        Self::Pushes(k, own / 2)
-                    }
+                    Some(own) if own / 2 < contacts && compliant => Self::Pushes(k, own / 2),
                     _ => Self::Unknown,
                 }
             }
