@@ -15,7 +15,7 @@ def test_wear_where_the_sliding_reverses(size: float) -> None:
     m = kp.Model("disc", gravity=(0, 0))
     m.ground.curves(floor={"line": ((3 * size, 0), (-3 * size, 0))})
     m.body("disc", mass=1, inertia=0.1 * size**2, points={"C": (0, 0)})
-    law: dict[str, float] = {"radius": size, "stiffness": 500 / size, "exponent": 1}
+    law: dict[str, Any] = {"radius": size, "stiffness": 500 / size, "exponent": 1}
     m.contact(
         "touch", "disc.C", "ground.floor", friction=0.3, velocity=0.01 * size, wear=1e-9, **law
     )
@@ -34,7 +34,7 @@ def test_wear_without_sliding() -> None:
     m = kp.Model("disc", gravity=(9.81 * s, -9.81 * c))
     m.ground.curves(floor={"line": ((3 * c, 3 * s), (-3 * c, -3 * s))})
     m.body("disc", mass=1, inertia=0.1, points={"C": (0, 0)})
-    law: dict[str, float] = {"radius": 0.1, "stiffness": 1e6, "damping": 0.2}
+    law: dict[str, Any] = {"radius": 0.1, "stiffness": 1e6, "damping": 0.2}
     m.contact("touch", "disc.C", "ground.floor", friction=0.3, velocity=0.01, wear=1e-12, **law)
     start = kp.assemble(m, {"disc.x": -0.3 * s, "disc.y": 0.3 * c, "disc.angle": 0})
     sol = kp.dynamics(m, start, t_end=0.6)
@@ -56,7 +56,7 @@ def pressed(order: list[str], curves: list[dict[str, Any]], size: float) -> kp.S
     m = kp.Model("two curves", gravity=(0, 0))
     for name, rim in zip("ab", curves, strict=True):
         m.body(name, mass=1, inertia=0.1 * size**2, curves={"rim": rim})
-    law: dict[str, float] = {"stiffness": 1e4 / size**1.5, "friction": 0.4, "velocity": 0.1 * size}
+    law: dict[str, Any] = {"stiffness": 1e4 / size**1.5, "friction": 0.4, "velocity": 0.1 * size}
     m.contact("touch", curves=order, **law)
     names = ["x", "y", "angle", "vx", "vy", "omega"]
     rest = {f"{body}.{name}": 0.0 for body in "ab" for name in names}
@@ -84,3 +84,17 @@ def test_the_order_of_two_smooth_curves_does_not_matter(size: float) -> None:
     assert one["touch.force"] > 0
     for name in ["a.ax", "a.ay", "a.alpha", "b.ax", "b.ay", "b.alpha"]:
         assert one[name] == pytest.approx(other[name], rel=1e-9), name
+
+
+def test_the_speed_of_an_impact_is_no_mode() -> None:
+    """A disc rests on a floor: one mode for each coordinate, none for the speed of its impact."""
+    m = kp.Model("disc", gravity=(0, -9.81))
+    m.ground.curves(floor={"line": ((1, 0), (-1, 0))})
+    m.body("disc", mass=2, inertia=0.1, points={"C": (0, 0)})
+    law: dict[str, Any] = {"law": "flores", "restitution": 0.6}
+    m.contact("touch", "disc.C", "ground.floor", radius=0.1, stiffness=1e5, exponent=1, **law)
+    m.generalized_force("along", "disc.x", value="-20*disc.x")
+    m.generalized_force("turn", "disc.angle", value="-10*disc.angle")
+    rest = kp.equilibrium(m, kp.assemble(m, {"disc.x": 0, "disc.y": 0.0995, "disc.angle": 0}))
+    expected = np.sqrt([20 / 2, 10 / 0.1, 1e5 / 2])
+    assert kp.modes(m, rest.state).omega == pytest.approx(expected, rel=1e-9)
