@@ -1,0 +1,188 @@
+"""Six-bars near starts that fit a task: least squares of many starts side by side.
+
+Unknowns are those of the linkage and the angles of its bodies at each position, so that a start
+need not close. Gaps of the loops are residuals with a growing weight. The method is that of
+Levenberg and Marquardt (Marquardt 1963) within bounds; the block of each position is eliminated
+first.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from kempe.base.arrays import Floats
+from kempe.synthesis.six_bar.topology import Topology, solved
+from kempe.synthesis.tasks import Complexes
+
+#: The part of a step that shows its bend, and the largest bend as a part of it.
+_PART, _BENT = 0.1, 0.75
+
+
+@dataclass(frozen=True)
+class Task:
+    """What the positions of a six-bar must be, in units of the task.
+
+    Attributes:
+        family: its bodies.
+        low, high: bounds of the unknowns of a linkage, (size,); equal if prescribed.
+        places: of P, (n,); None for functions.
+        crank: given angles of the crank, (n,), or None.
+        arm: given angles of the arm, (n,), or None.
+    """
+
+    family: Topology
+    low: Floats
+    high: Floats
+    places: Complexes | None = None
+    crank: Floats | None = None
+    arm: Floats | None = None
+
+    @property
+    def count(self) -> int:
+        """Number of positions."""
+        return len(self.crank if self.places is None and self.crank is not None else self.places)  # type: ignore[arg-type]
+
+    def part(self, chosen: Any) -> Task:
+        """Some of the positions."""
+        taken = {
+            name: None if given is None else given[chosen]
+            for name in ("places", "crank", "arm")
+            for given in [getattr(self, name)]
+        }
+        return replace(self, **taken)
+
+    def residuals(
+        self, linkage: Floats, angles: Floats, weight: float
+    ) -> tuple[Floats, Floats, Floats]:
+        """Residuals (n_linkages, n, r), slopes by the angles and by the linkage, (..., size)."""
+        of, turned = self.family, np.exp(1j * angles)
+        found, own, more = [], [], []
+        sums = [(weight, closure, None) for closure in of.closures]
+        if self.places is not None:
+            sums.append((1.0, of.places["P"], self.places))
+        for factor, terms, wanted in sums:
+            z = of.sum(terms, linkage, turned) - (0.0 if wanted is None else wanted)
+            by_angles, by_linkage = of.slopes(terms, linkage, turned)
+            for part in ("real", "imag"):
+                found.append(factor * getattr(z, part))
+                own.append(factor * getattr(by_angles, part))
+                more.append(factor * getattr(by_linkage, part))
+        for k, (body, given) in enumerate([(of.crank, self.crank), (of.arm, self.arm)]):
+            if given is None:
+                continue
+            factor, offset, scale = weight if k == 0 else 1.0, of.angles + k, of.angles + 2 + k
+            aim = linkage[:, offset, None] + linkage[:, scale, None] * given
+            found.append(factor * np.angle(np.exp(1j * (angles[:, :, body] - aim))))
+            own.append(np.zeros(angles.shape))
+            own[-1][:, :, body] = factor
+            more.append(np.zeros((*angles.shape[:2], of.size)))
+            more[-1][:, :, offset] = -factor
+            more[-1][:, :, scale] = -factor * given
+        return np.stack(found, axis=2), np.stack(own, axis=2), np.stack(more, axis=2)
+
+
+def fitted(
+    task: Task, linkage: Floats, angles: Floats, weight: float, steps: int, ridge: float = 0.0
+) -> tuple[Floats, Floats, Floats]:
+    """Linkages (n, size), their angles (n, n_positions, n_bodies) and sums of squares near starts.
+
+    Args:
+        task: what is fitted.
+        linkage: the starts, (n, size).
+        angles: of their bodies, (n, n_positions, n_bodies).
+        weight: of the gaps.
+        steps: most trials of each start.
+        ridge: weight of the unknowns themselves, which keeps linkages small.
+    """
+    linkage, angles = np.clip(linkage, task.low, task.high), angles.copy()
+    ridges = ridge * (np.arange(task.family.size) < task.family.angles)
+    damping, active = np.full(len(linkage), 1e-3), np.arange(len(linkage))
+    now = task.residuals(linkage, angles, weight)
+    sums = _sum(now[0], linkage, ridges)
+    best = sums.copy()
+    for _ in range(steps):
+        if not len(active):
+            break
+        at, turned = linkage[active], angles[active]
+        to, by = _bent(task, (at, turned), now, weight, damping[active], ridges)
+        moved, turned = np.clip(at + to, task.low, task.high), turned + by
+        new = task.residuals(moved, turned, weight)
+        total = _sum(new[0], moved, ridges)
+        better = total < best[active]
+        taken = active[better]
+        idle = better & (total > best[active] * (1.0 - 1e-5)) | (total < 1e-28)
+        linkage[taken], angles[taken], best[taken] = moved[better], turned[better], total[better]
+        now = tuple(np.where(_wide(better, a), b, a) for a, b in zip(now, new, strict=True))
+        damping[active] = np.where(better, np.maximum(damping[active] * 0.3, 1e-15), damping[active] * 3.0)
+        going = ~(idle & better) & (damping[active] < 1e8)
+        active, now = active[going], tuple(part[going] for part in now)
+    return linkage, angles, best
+
+
+def _wide(flags: Any, like: Floats) -> Any:
+    return flags.reshape(-1, *[1] * (like.ndim - 1))
+
+
+def _sum(residuals: Floats, linkage: Floats, ridges: Floats) -> Floats:
+    found = (residuals**2).sum(axis=(1, 2)) + ((ridges * linkage) ** 2).sum(axis=1)
+    return np.where(np.isfinite(found), found, np.inf)
+
+
+def _bent(
+    task: Task,
+    start: tuple[Floats, Floats],
+    now: tuple[Floats, ...],
+    weight: float,
+    damping: Floats,
+    ridges: Floats,
+) -> tuple[Floats, Floats]:
+    """Steps along parabolas, which follow narrow valleys (Transtrum and Sethna 2012)."""
+    linkage, angles = start
+    residuals, own, more = now
+    to, by = _step(task, linkage, now, damping, ridges)
+    ahead = task.residuals(linkage + _PART * to, angles + _PART * by, weight)[0]
+    straight = (own @ by[..., None] + more @ to[:, None, :, None])[..., 0]
+    bend = 2.0 / _PART * ((ahead - residuals) / _PART - straight)
+    more_to, more_by = _step(task, linkage, (bend, own, more), damping, 0.0 * ridges)
+    sizes = [
+        np.sqrt((x**2).sum(axis=1) + (y**2).sum(axis=(1, 2))) for x, y in ((to, by), (more_to, more_by))
+    ]
+    share = np.where(2.0 * sizes[1] < _BENT * sizes[0], 0.5, 0.0)
+    return to + _wide(share, to) * more_to, by + _wide(share, by) * more_by
+
+
+def _step(
+    task: Task, linkage: Floats, now: tuple[Floats, ...], damping: Floats, ridges: Floats
+) -> tuple[Floats, Floats]:
+    """The steps of linkages and of the angles of their positions."""
+    residuals, own, more = now
+    count, size = linkage.shape
+    turned = np.swapaxes(own, 2, 3)
+    block, both, side = turned @ own, turned @ more, (turned @ residuals[..., None])
+    for k in range(block.shape[-1]):
+        block[..., k, k] *= 1.0 + damping[:, None]
+        block[..., k, k] += 1e-14
+    flat = more.reshape(count, -1, size)
+    matrix = np.swapaxes(flat, 1, 2) @ flat
+    right = (np.swapaxes(flat, 1, 2) @ residuals.reshape(count, -1, 1))[..., 0]
+    right += ridges**2 * linkage
+    diagonal = np.einsum("kii->ki", matrix) + ridges**2
+    held = ((linkage <= task.low) & (right > 0.0)) | ((linkage >= task.high) & (right < 0.0))
+    held |= task.low == task.high
+    ahead = solved(block, np.concatenate([both, side], axis=-1))
+    wide = both.reshape(count, -1, size)
+    matrix = matrix - np.swapaxes(wide, 1, 2) @ ahead[..., :-1].reshape(count, -1, size)
+    right = right - (np.swapaxes(wide, 1, 2) @ ahead[..., -1].reshape(count, -1, 1))[..., 0]
+    places = np.arange(size)
+    # what is left after the elimination may be far smaller than the diagonal before
+    left = np.maximum(matrix[:, places, places], 1e-9 * diagonal + 1e-14)
+    matrix[:, places, places] += damping[:, None] * left + ridges**2
+    free = ~held
+    matrix = np.where(free[:, :, None] & free[:, None, :], matrix, 0.0)
+    matrix[:, places, places] = np.where(free, matrix[:, places, places], 1.0)
+    to = -solved(matrix, np.where(free, right, 0.0)[..., None])[..., 0]
+    by = -ahead[..., -1] - (ahead[..., :-1] @ to[:, None, :, None])[..., 0]
+    return np.nan_to_num(to), np.nan_to_num(by)
