@@ -142,7 +142,9 @@ class Candidate:
     def _sides(self, corners: list[complex]) -> list[tuple[complex, complex]]:
         """The sides between the corners of a body, each once."""
         ends = corners[1:] + corners[:1] * (len(corners) > 2)
-        return [(x, y) for x, y in zip(corners, ends) if abs(y - x) > 1e-9 * self.size]
+        return [
+            (x, y) for x, y in zip(corners, ends, strict=False) if abs(y - x) > 1e-9 * self.size
+        ]
 
     def _rods(self, body: str, corners: list[complex]) -> list[dict[str, Any]]:
         """Rods between the corners, together the mass of a body."""
@@ -189,7 +191,7 @@ class Candidate:
 
 
 def pair(at: complex) -> tuple[float, float]:
-    """x and y."""
+    """Coordinates of a point."""
     return float(at.real), float(at.imag)
 
 
@@ -197,12 +199,10 @@ def masses_of(given: Mapping[str, Any] | None) -> dict[str, float]:
     """Masses by body, kg; the others have 1 kg per metre of their sides.
 
     Raises:
-        ModelError: a name is unknown, or a mass is not positive.
+        ModelError: a mass is not positive.
     """
     found = {}
     for name, mass in (given or {}).items():
-        if name not in (*_LINKS[:3], "slider"):
-            refuse("masses", f"{name!r}; must be crank, coupler, rocker or slider")
         found[name] = value(mass, f"masses.{name}", "kg")
         if not found[name] > 0.0:
             refuse(f"masses.{name}", f"{mass!r}; must be > 0")

@@ -19,6 +19,8 @@ from kempe.synthesis.tasks import Complexes
 
 #: The part of a step that shows its bend, and the largest bend as a part of it.
 _PART, _BENT = 0.1, 0.75
+#: The part of the error that keeps linkages away from dead points.
+_GUARD = 0.1
 
 
 @dataclass(frozen=True)
@@ -84,10 +86,52 @@ class Task:
         return np.stack(found, axis=2), np.stack(own, axis=2), np.stack(more, axis=2)
 
 
+@dataclass(frozen=True)
+class _Sum:
+    """A sum of squares of starts.
+
+    Attributes:
+        task: what is fitted.
+        weight: of the gaps.
+        ridges: weights of the unknowns of a linkage, which keep it small, (size,).
+        guard: for each start a weight, (n,), which keeps its determinant away from zero, and the
+            sign, (n, n_positions), and the mean logarithm of this determinant, (n,).
+    """
+
+    task: Task
+    weight: float
+    ridges: Floats
+    guard: tuple[Floats, Floats, Floats]
+
+    def residuals(self, linkage: Floats, angles: Floats, rows: Any) -> tuple[Floats, ...]:
+        """As ``Task.residuals``; infinite where a position is beyond a dead point."""
+        found, own, more = self.task.residuals(linkage, angles, self.weight)
+        sign, log, by_angles, by_linkage = self.task.family.room(linkage, angles)
+        share, signs, mean = (part[rows] for part in self.guard)
+        with np.errstate(over="ignore", invalid="ignore"):
+            far = share[:, None] * np.exp(mean[:, None] - log)
+            slopes = [-far[:, :, None, None] * of[:, :, None] for of in (by_angles, by_linkage)]
+        far = np.where(sign == signs, far, np.inf)
+        return (
+            np.concatenate([found, far[:, :, None]], axis=2),
+            np.concatenate([own, np.nan_to_num(slopes[0])], axis=2),
+            np.concatenate([more, np.nan_to_num(slopes[1])], axis=2),
+        )
+
+    def of(self, residuals: Floats, linkage: Floats) -> Floats:
+        """The sums, (n,)."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = (residuals**2).sum(axis=(1, 2)) + ((self.ridges * linkage) ** 2).sum(axis=1)
+        return np.where(np.isfinite(found), found, np.inf)
+
+
 def fitted(
-    task: Task, linkage: Floats, angles: Floats, weight: float, steps: int, ridge: float = 0.0
+    task: Task, linkage: Floats, angles: Floats, weight: float, *, steps: int, ridge: float = 0.0
 ) -> tuple[Floats, Floats, Floats]:
-    """Linkages (n, size), their angles (n, n_positions, n_bodies) and sums of squares near starts.
+    """Linkages (n, size), their angles (n, n_positions, n_bodies) and errors near starts.
+
+    No position passes a dead point. A part of the error at the start keeps linkages away from
+    dead points, where any error vanishes for a linkage that folds.
 
     Args:
         task: what is fitted.
@@ -98,57 +142,58 @@ def fitted(
         ridge: weight of the unknowns themselves, which keeps linkages small.
     """
     linkage, angles = np.clip(linkage, task.low, task.high), angles.copy()
+    sign, log, _, _ = task.family.room(linkage, angles)
+    first = task.residuals(linkage, angles, weight)[0]
+    share = _GUARD * np.sqrt((first**2).mean(axis=(1, 2)))
     ridges = ridge * (np.arange(task.family.size) < task.family.angles)
+    of = _Sum(task, weight, ridges, (share, sign, log.mean(axis=1)))
     damping, active = np.full(len(linkage), 1e-3), np.arange(len(linkage))
-    now = task.residuals(linkage, angles, weight)
-    sums = _sum(now[0], linkage, ridges)
-    best = sums.copy()
+    now = of.residuals(linkage, angles, active)
+    best = of.of(now[0], linkage)
     for _ in range(steps):
+        active, now = (
+            active[np.isfinite(best[active])],
+            tuple(part[np.isfinite(best[active])] for part in now),
+        )
         if not len(active):
             break
         at, turned = linkage[active], angles[active]
-        to, by = _bent(task, (at, turned), now, weight, damping[active], ridges)
+        to, by = _bent(of, (at, turned, active), now, damping[active])
         moved, turned = np.clip(at + to, task.low, task.high), turned + by
-        new = task.residuals(moved, turned, weight)
-        total = _sum(new[0], moved, ridges)
+        new = of.residuals(moved, turned, active)
+        total = of.of(new[0], moved)
         better = total < best[active]
         taken = active[better]
         idle = better & (total > best[active] * (1.0 - 1e-5)) | (total < 1e-28)
         linkage[taken], angles[taken], best[taken] = moved[better], turned[better], total[better]
         now = tuple(np.where(_wide(better, a), b, a) for a, b in zip(now, new, strict=True))
-        damping[active] = np.where(better, np.maximum(damping[active] * 0.3, 1e-15), damping[active] * 3.0)
+        damping[active] = np.where(
+            better, np.maximum(damping[active] * 0.3, 1e-15), damping[active] * 3.0
+        )
         going = ~(idle & better) & (damping[active] < 1e8)
         active, now = active[going], tuple(part[going] for part in now)
-    return linkage, angles, best
+    errors = task.residuals(linkage, angles, weight)[0]
+    return linkage, angles, np.sqrt((errors**2).mean(axis=(1, 2)))
 
 
 def _wide(flags: Any, like: Floats) -> Any:
     return flags.reshape(-1, *[1] * (like.ndim - 1))
 
 
-def _sum(residuals: Floats, linkage: Floats, ridges: Floats) -> Floats:
-    found = (residuals**2).sum(axis=(1, 2)) + ((ridges * linkage) ** 2).sum(axis=1)
-    return np.where(np.isfinite(found), found, np.inf)
-
-
 def _bent(
-    task: Task,
-    start: tuple[Floats, Floats],
-    now: tuple[Floats, ...],
-    weight: float,
-    damping: Floats,
-    ridges: Floats,
+    of: _Sum, start: tuple[Floats, Floats, Any], now: tuple[Floats, ...], damping: Floats
 ) -> tuple[Floats, Floats]:
     """Steps along parabolas, which follow narrow valleys (Transtrum and Sethna 2012)."""
-    linkage, angles = start
+    linkage, angles, rows = start
     residuals, own, more = now
-    to, by = _step(task, linkage, now, damping, ridges)
-    ahead = task.residuals(linkage + _PART * to, angles + _PART * by, weight)[0]
+    to, by = _step(of.task, linkage, now, damping, of.ridges)
+    ahead = of.residuals(linkage + _PART * to, angles + _PART * by, rows)[0]
     straight = (own @ by[..., None] + more @ to[:, None, :, None])[..., 0]
-    bend = 2.0 / _PART * ((ahead - residuals) / _PART - straight)
-    more_to, more_by = _step(task, linkage, (bend, own, more), damping, 0.0 * ridges)
+    bend = np.nan_to_num(2.0 / _PART * ((ahead - residuals) / _PART - straight), posinf=0.0)
+    more_to, more_by = _step(of.task, linkage, (bend, own, more), damping, 0.0 * of.ridges)
     sizes = [
-        np.sqrt((x**2).sum(axis=1) + (y**2).sum(axis=(1, 2))) for x, y in ((to, by), (more_to, more_by))
+        np.sqrt((x**2).sum(axis=1) + (y**2).sum(axis=(1, 2)))
+        for x, y in ((to, by), (more_to, more_by))
     ]
     share = np.where(2.0 * sizes[1] < _BENT * sizes[0], 0.5, 0.0)
     return to + _wide(share, to) * more_to, by + _wide(share, by) * more_by
@@ -170,16 +215,17 @@ def _step(
     right = (np.swapaxes(flat, 1, 2) @ residuals.reshape(count, -1, 1))[..., 0]
     right += ridges**2 * linkage
     diagonal = np.einsum("kii->ki", matrix) + ridges**2
-    held = ((linkage <= task.low) & (right > 0.0)) | ((linkage >= task.high) & (right < 0.0))
-    held |= task.low == task.high
+    matrix = matrix + np.diag(ridges**2)
     ahead = solved(block, np.concatenate([both, side], axis=-1))
     wide = both.reshape(count, -1, size)
     matrix = matrix - np.swapaxes(wide, 1, 2) @ ahead[..., :-1].reshape(count, -1, size)
     right = right - (np.swapaxes(wide, 1, 2) @ ahead[..., -1].reshape(count, -1, 1))[..., 0]
+    held = ((linkage <= task.low) & (right > 0.0)) | ((linkage >= task.high) & (right < 0.0))
+    held |= task.low == task.high
     places = np.arange(size)
     # what is left after the elimination may be far smaller than the diagonal before
     left = np.maximum(matrix[:, places, places], 1e-9 * diagonal + 1e-14)
-    matrix[:, places, places] += damping[:, None] * left + ridges**2
+    matrix[:, places, places] += damping[:, None] * left
     free = ~held
     matrix = np.where(free[:, :, None] & free[:, None, :], matrix, 0.0)
     matrix[:, places, places] = np.where(free, matrix[:, places, places], 1.0)

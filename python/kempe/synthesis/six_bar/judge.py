@@ -91,9 +91,7 @@ def _judged(one: SixBar, linkage: Floats, angles: Floats, way: int) -> tuple[Six
     return _told(one, wrong, found, bool(turns), least), []
 
 
-def _told(
-    one: SixBar, wrong: dict[str, int], crank: Floats, turns: bool, least: float
-) -> SixBar:
+def _told(one: SixBar, wrong: dict[str, int], crank: Floats, turns: bool, least: float) -> SixBar:
     defects = tuple(f"{kind}: at position {k + 1}" for kind, k in wrong.items())
     return replace(
         one,

@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from kempe.base.arrays import Floats
 from kempe.errors import ModelError
-from kempe.model.given import value
 from kempe.model.values import Number, refuse
 from kempe.synthesis import tasks
 from kempe.synthesis.found import Found
 from kempe.synthesis.six_bar.candidate import SixBar
 from kempe.synthesis.six_bar.fit import Task, fitted
 from kempe.synthesis.six_bar.judge import judged
+from kempe.synthesis.six_bar.prescribed import bounds
 from kempe.synthesis.six_bar.starts import atlas, between, for_function, for_path
-from kempe.synthesis.six_bar.topology import FAMILIES, Topology, topology
+from kempe.synthesis.six_bar.topology import FAMILIES, Topology
 from kempe.synthesis.tasks import Complexes
 
 if TYPE_CHECKING:
@@ -32,154 +32,88 @@ _ATLAS = 600
 _FIRST = 12
 #: Weight of the gaps, steps, and weight of the unknowns in each fit.
 _STAGES = ((2.0, 40, 1e-3), (10.0, 60, 1e-4), (1e3, 40, 0.0))
+#: Rounds of starts until a six-bar has no defect.
+_ROUNDS = 3
+#: The least scales of angles if they are free.
+_LEAST = 0.1
 #: Two six-bars are nearly the same within this share of their size.
 _NEAR = 1e-3
 
 
-def bounds(
-    family: Topology,
-    parts: Mapping[str, Any] | None,
-    pivots: Mapping[str, complex],
-    within: Floats | None,
-    frame: tuple[complex, float],
-) -> tuple[Floats, Floats]:
-    """Least and largest unknowns of a linkage, in units of a task.
+@dataclass(frozen=True)
+class Asked:
+    """What is asked besides the task, as the arguments of ``path`` and ``function``."""
 
-    Args:
-        family: its bodies.
-        parts: lengths, ranges of lengths or points of bodies.
-        pivots: fixed ground pivots.
-        within: the box of the others.
-        frame: origin and unit of the task.
+    family: Topology
+    limits: Limits
+    pivots: Mapping[str, Sequence[Number]] | None
+    parts: Mapping[str, Any] | None
+    starts: int | None
+    seed: int
 
-    Raises:
-        ModelError: they are wrong, or contradict each other.
-    """
-    low, high = np.full(family.size, -np.inf), np.full(family.size, np.inf)
-    origin, unit = frame
-    for k, name in enumerate(family.ground):
-        columns = slice(2 * k, 2 * k + 2)
-        if within is not None:
-            middle = np.array([origin.real, origin.imag])
-            low[columns], high[columns] = ((within - middle[:, None]) / unit).T
-        if name in pivots:
-            at = (pivots[name] - origin) / unit
-            place = np.array([at.real, at.imag])
-            if (place < low[columns]).any() or (place > high[columns]).any():
-                refuse(f"pivots.{name}", "outside 'within'; move it or widen 'within'")
-            low[columns] = high[columns] = place
-    for body, points in enumerate(family.bodies.values()):
-        low[family.columns[body, 1]] = 0.0
-    for name, given in (parts or {}).items():
-        if name not in family.bodies:
-            refuse("parts", f"{name!r}; {family.name} has {', '.join(family.bodies)}")
-        _part(family, name, given, unit, low, high)
-    return low, high
+    def bounds(
+        self, frame: tuple[complex, float], more: Mapping[str, complex], free: str
+    ) -> tuple[Floats, Floats]:
+        """Bounds of the unknowns of a linkage: prescribed parts, pivots, and the box of pivots.
+
+        Args:
+            frame: origin and unit of the task.
+            more: pivots that the task fixes.
+            free: names of the others.
+        """
+        pivots = {**tasks.pivots(self.pivots, " ".join(free)), **more}
+        return bounds(self.family, self.parts, pivots, self.limits.within, frame)
 
 
-def _part(family: Topology, name: str, given: Any, unit: float, low: Floats, high: Floats) -> None:
-    """Write a prescribed body into bounds."""
-    body, points = list(family.bodies).index(name), family.bodies[name]
-    column, path = family.columns[body, 1], f"parts.{name}"
-    if not isinstance(given, Mapping):
-        ends = [given, given] if isinstance(given, (str, int, float, np.number)) else list(given)
-        if len(ends) != 2:
-            refuse(path, f"{given!r}; must be a length, (least, largest), or points by name")
-        found = [value(x, path, "m") for x in ends]
-        if not 0.0 < found[0] <= found[1]:
-            refuse(path, f"{given!r}; must be > 0, and the least length first")
-        low[column], high[column] = (x / unit for x in found)
-        return
-    needed = set(points) - {"P"}
-    if not needed <= set(given) <= set(points):
-        refuse(path, f"has {', '.join(given)}; its points are {', '.join(points)}, P is optional")
-    at = {key: complex(*tasks.rows([xy], f"{path}.{key}", ["m", "m"], "(0, 0)")[0]) for key, xy in given.items()}
-    side = at[points[1]] - at[points[0]]
-    if not abs(side) > 0.0:
-        refuse(path, f"{points[0]} and {points[1]} are the same; move one of them")
-    for k, key in enumerate(points[1:], 1):
-        if key not in at:
-            continue
-        own = (at[key] - at[points[0]]) * side.conjugate() / abs(side) / unit
-        column = family.columns[body, k]
-        low[column] = high[column] = own.real
-        if k > 1:
-            low[column + 1] = high[column + 1] = own.imag
-
-
-def path_of(
-    family: str,
-    places: Complexes,
-    cranks: Sequence[float] | None,
-    limits: Limits,
-    *,
-    offset: bool,
-    pivots: Mapping[str, complex],
-    parts: Mapping[str, Any] | None,
-    starts: int,
-    seed: int,
-) -> Found:
+def path(asked: Asked, places: Complexes, cranks: Sequence[float], *, fixed: bool) -> Found:
     """Six-bars whose point P passes points.
 
     Args:
-        family: of the six-bars.
+        asked: the family and the limits.
         places: the points, m.
-        cranks: angles of the crank, rad, or None.
-        limits: of the candidates.
-        offset: whether only differences of the crank angles count.
-        pivots: fixed ground pivots, m.
-        parts: prescribed parts.
-        starts: their number.
-        seed: of the atlas and the starts.
+        cranks: angles of the crank, rad; empty if they are free.
+        fixed: whether these angles are measured from the x axis.
+
+    Raises:
+        ModelError: no six-bar was found, or the points or parts are wrong.
     """
-    of, frame = topology(family), (complex(places.mean()), tasks.size(places))
+    of, frame = asked.family, (complex(places.mean()), tasks.size(places))
     _apart(places, frame[1])
-    low, high = bounds(of, parts, pivots, limits.within, frame)
+    low, high = asked.bounds(frame, {}, of.ground)
     low[-4:] = high[-4:] = [0.0, 0.0, 1.0, 1.0]
-    given = None
-    if cranks is not None:
-        given = np.unwrap(np.asarray(cranks, dtype=float))
-        if offset:
-            low[-4], high[-4] = -np.inf, np.inf
+    given = np.unwrap(np.asarray(cranks, dtype=float)) if len(cranks) else None
+    if given is not None and not fixed:
+        low[-4], high[-4] = -np.inf, np.inf
     task = Task(of, low, high, (places - frame[0]) / frame[1], given)
-    random = np.random.default_rng(seed)
-    linkage, angles = for_path(task, atlas(family, _ATLAS, seed), starts, random)
-    if given is not None and offset:
-        linkage[:, -4] = np.angle(np.exp(1j * (angles[:, :, of.crank] - given)).mean(axis=1))
-    linkage, angles = _improved(task, linkage, angles)
-    return _collected(task, linkage, angles, limits, frame, places)
+
+    def started(seed: int) -> tuple[Floats, Floats]:
+        random = np.random.default_rng(seed)
+        found = for_path(task, atlas(of.name, _ATLAS, seed), asked.starts or STARTS, random)
+        if given is not None and not fixed:
+            own = np.exp(1j * (found[1][:, :, of.crank] - given))
+            found[0][:, -4] = np.angle(own.mean(axis=1))
+        return found
+
+    return _searched(task, asked, started, frame, places=places)
 
 
-def function_of(
-    family: str,
-    pairs: Floats,
-    limits: Limits,
-    *,
-    fixed: tuple[bool, bool],
-    ground: float,
-    pivots: Mapping[str, complex],
-    parts: Mapping[str, Any] | None,
-    starts: int,
-    seed: int,
-) -> Found:
+def function(asked: Asked, pairs: Floats, fixed: tuple[bool, bool], ground: float) -> Found:
     """Six-bars whose arm has angles at angles of the crank.
 
     Args:
-        family: of the six-bars.
+        asked: the family and the limits.
         pairs: angles of crank and arm, rad, or numbers for free scales, (n, 2).
-        limits: of the candidates.
         fixed: whether the offsets and the scales are fixed.
         ground: the distance of O and D, m.
-        pivots: a fixed pivot G, m.
-        parts: prescribed parts.
-        starts: their number.
-        seed: of the atlas and the starts.
+
+    Raises:
+        ModelError: no six-bar was found, or the parts are wrong.
     """
-    of = topology(family)
-    pivots = {**pivots, "O": 0j, "D": complex(ground)}
-    low, high = bounds(of, parts, pivots, limits.within, (0j, ground))
+    of, frame = asked.family, (0j, ground)
+    low, high = asked.bounds(frame, {"O": 0j, "D": complex(ground)}, of.ground.strip("OD"))
     coupler = list(of.bodies).index("coupler")
     point = of.columns[coupler, len(of.bodies["coupler"]) - 1]
+    given = low[point : point + 2].copy()
     low[point : point + 2] = high[point : point + 2] = 0.0
     base, unit = np.zeros(2), np.ones(2)
     low[-4:], high[-4:] = -np.inf, np.inf
@@ -188,18 +122,52 @@ def function_of(
     else:
         base, span = pairs.min(axis=0), np.ptp(pairs, axis=0)
         unit = np.where(span > 0.0, span, 1.0)
-        low[-2], high[-2] = 0.1, 2.0 * np.pi
+        low[-2], high[-2] = _LEAST, 2.0 * np.pi
     if fixed[0]:
         low[-4:-2] = high[-4:-2] = 0.0
     crank, arm = ((pairs - base) / unit).T
     task = Task(of, low, high, None, crank, arm)
-    random = np.random.default_rng(seed)
-    linkage, angles = for_function(task, atlas(family, _ATLAS, seed), starts, fixed, random)
-    linkage, angles = _improved(task, linkage, angles)
-    used = fixed[1] | (abs(linkage[:, -1]) > 0.1)
-    linkage, angles = linkage[used], angles[used]
-    linkage[:, point] = 0.5 * linkage[:, of.columns[coupler, 1]]
-    return _collected(task, linkage, angles, limits, (0j, ground), np.zeros(0, dtype=complex))
+
+    def started(seed: int) -> tuple[Floats, Floats]:
+        random = np.random.default_rng(seed)
+        most = asked.starts or STARTS
+        return for_function(task, atlas(of.name, _ATLAS, seed), most, fixed, random)
+
+    def placed(linkage: Floats) -> None:
+        """P is the middle of the coupler, or where it is prescribed."""
+        linkage[:, point] = 0.5 * linkage[:, of.columns[coupler, 1]]
+        if np.isfinite(given).all():
+            linkage[:, point : point + 2] = given
+
+    return _searched(task, asked, started, frame, places=np.zeros(0, dtype=complex), placed=placed)
+
+
+def _searched(
+    task: Task,
+    asked: Asked,
+    started: Callable[[int], tuple[Floats, Floats]],
+    frame: tuple[complex, float],
+    *,
+    places: Complexes,
+    placed: Callable[[Floats], None] | None = None,
+) -> Found:
+    """Candidates of several rounds of starts, until one is without defects."""
+    made: list[SixBar] = []
+    for k in range(_ROUNDS):
+        linkage, angles = _improved(task, *started(asked.seed + 1000 * k))
+        # a scale of the arm near zero fits any function
+        used = abs(linkage[:, -1]) >= _LEAST
+        linkage, angles = _closed(task, linkage[used], angles[used])
+        if placed is not None:
+            placed(linkage)
+        made += _candidates(task, linkage, angles, asked.limits, frame)
+        found = _ranked(made, asked.limits, places)
+        if any(not one.defects for one in found):
+            return found
+    if not made:
+        hint = "try another seed or more starts, leave parts or pivots free, or change the task"
+        raise ModelError(f"no {task.family.name} found that closes at all positions", hint=hint)
+    return found
 
 
 def _apart(places: Complexes, size: float) -> None:
@@ -216,16 +184,16 @@ def _apart(places: Complexes, size: float) -> None:
 
 def _improved(task: Task, linkage: Floats, angles: Floats) -> tuple[Floats, Floats]:
     """Six-bars near starts: some positions first, then all of them, with gaps that vanish."""
-    if len(linkage):
-        n = task.count
-        chosen = np.unique(np.linspace(0, n - 1, min(n, _FIRST)).round().astype(int))
-        linkage, some, sums = fitted(task.part(chosen), linkage, angles[:, chosen], *_STAGES[0])
-        best = np.argsort(sums, kind="stable")[: _SECOND if n > _FIRST else len(sums)]
-        at = np.interp(np.arange(n), chosen, np.arange(len(chosen)))
-        angles = between(some, best, np.tile(at, (len(best), 1)))
-        linkage = linkage[best]
-        for stage in _STAGES[1:]:
-            linkage, angles, sums = fitted(task, linkage, angles, *stage)
+    n = task.count
+    chosen = np.unique(np.linspace(0, n - 1, min(n, _FIRST)).round().astype(int))
+    for k, (weight, steps, ridge) in enumerate(_STAGES if len(linkage) else ()):
+        some = task.part(chosen) if k == 0 else task
+        given = angles[:, chosen] if k == 0 else angles
+        linkage, angles, sums = fitted(some, linkage, given, weight, steps=steps, ridge=ridge)
+        if k == 0:
+            best = np.argsort(sums, kind="stable")[: _SECOND if n > _FIRST else len(sums)]
+            at = np.interp(np.arange(n), chosen, np.arange(len(chosen)))
+            linkage, angles = linkage[best], between(angles, best, np.tile(at, (len(best), 1)))
     return linkage, angles
 
 
@@ -238,19 +206,8 @@ def _errors(task: Task, linkage: Floats, angles: Floats) -> Floats:
     return np.asarray(abs(rest).max(axis=(1, 2), initial=0.0))
 
 
-def _collected(
-    task: Task,
-    linkage: Floats,
-    angles: Floats,
-    limits: Limits,
-    frame: tuple[complex, float],
-    places: Complexes,
-) -> Found:
-    """Candidates from fitted linkages.
-
-    Raises:
-        ModelError: none closes.
-    """
+def _closed(task: Task, linkage: Floats, angles: Floats) -> tuple[Floats, Floats]:
+    """Different linkages that close at all positions, those with the least errors first."""
     of = task.family
     if task.crank is not None and len(linkage):
         aim = linkage[:, -4, None] + linkage[:, -2, None] * task.crank
@@ -260,9 +217,6 @@ def _collected(
     good = np.isfinite(angles).all(axis=(1, 2)) & np.isfinite(linkage).all(axis=1)
     good &= lengths.min(axis=1) > tasks.SAME * abs(linkage[:, : of.angles]).max(axis=1)
     linkage, angles = linkage[good], angles[good]
-    if not len(linkage):
-        hint = "try another seed or more starts, leave parts or pivots free, or change the task"
-        raise ModelError(f"no {of.name} found that closes at all positions", hint=hint)
     errors = _errors(task, linkage, angles)
     size = abs(linkage[:, : of.angles]).max(axis=1)
     errors = np.where(errors < 1e-10, 0.0, errors)
@@ -273,7 +227,14 @@ def _collected(
             kept.append(int(k))
         if len(kept) == _JUDGED:
             break
-    linkage, angles = linkage[kept], angles[kept]
+    return linkage[kept], angles[kept]
+
+
+def _candidates(
+    task: Task, linkage: Floats, angles: Floats, limits: Limits, frame: tuple[complex, float]
+) -> list[SixBar]:
+    """Six-bars with their defects from closed linkages."""
+    of = task.family
     errors = _errors(task, linkage, angles) * (frame[1] if task.places is not None else 1.0)
     linkage[:, : of.angles] *= frame[1]
     ends = slice(0, 2 * len(of.ground))
@@ -285,7 +246,7 @@ def _collected(
         crank = angles[k, :, of.crank]
         one = SixBar(pins, 0.0, float(error), 0.0, False, True, (), crank, limits.masses, of)
         made.append(one)
-    return _ranked(judged(made, linkage, angles, limits.way), limits, places)
+    return judged(made, linkage, angles, limits.way) if made else made
 
 
 def _ranked(made: list[SixBar], limits: Limits, places: Complexes) -> Found:
@@ -294,16 +255,19 @@ def _ranked(made: list[SixBar], limits: Limits, places: Complexes) -> Found:
     kept = []
     for one in made:
         beyond = []
-        if limits.transmission_angle is not None and one.transmission_angle < limits.transmission_angle:
+        if (
+            limits.transmission_angle is not None
+            and one.transmission_angle < limits.transmission_angle
+        ):
             beyond.append("transmission angle: beyond the limit")
         if limits.grashof and not one.turns:
             beyond.append("grashof: beyond the limit")
-        one = replace(one, defects=(*one.defects, *beyond))
-        for told in one.defects:
+        whole = replace(one, defects=(*one.defects, *beyond))
+        for told in whole.defects:
             kind = told.partition(":")[0]
             excluded[kind] = excluded.get(kind, 0) + (not limits.tell)
-        if limits.tell or not one.defects:
-            kept.append(one)
+        if limits.tell or not whole.defects:
+            kept.append(whole)
 
     def key(one: SixBar) -> tuple[float, ...]:
         error = one.error if one.error > tasks.SAME * one.size else 0.0
@@ -313,4 +277,4 @@ def _ranked(made: list[SixBar], limits: Limits, places: Complexes) -> Found:
     return Found(sorted(kept, key=key), False, {k: n for k, n in excluded.items() if n}, places)
 
 
-__all__ = ["FAMILIES", "STARTS", "function_of", "path_of"]
+__all__ = ["FAMILIES", "Asked", "function", "path"]

@@ -7,8 +7,8 @@ from functools import lru_cache
 import numpy as np
 
 from kempe.base.arrays import Floats
-from kempe.synthesis.six_bar.topology import Topology, topology
 from kempe.synthesis.six_bar.fit import Task
+from kempe.synthesis.six_bar.topology import Topology, topology
 from kempe.synthesis.tasks import Complexes
 
 #: Positions of a turn of the crank in the atlas, and coupler points of each six-bar.
@@ -50,7 +50,10 @@ class Atlas:
         for (body, k), column in family.columns.items():
             if body < 0 or k > 1:
                 other[:, column + 1] *= -1.0
-        self.linkage, self.angles = np.concatenate([linkage, other]), np.concatenate([turns, -turns])
+        self.linkage, self.angles = (
+            np.concatenate([linkage, other]),
+            np.concatenate([turns, -turns]),
+        )
 
     @property
     def turns(self) -> np.ndarray:  # type: ignore[type-arg]
@@ -89,7 +92,9 @@ def for_function(
                 at = np.where((at < 0) & (at + TURN <= 2 * TURN), at % TURN, at)
             at = np.where((at >= 0.0) & (at <= 2 * TURN), at, np.nan)
             found.append(_arms(task, of, at, (phase, scale), fixed))
-    errors, phases, scaled, offsets, arms, places = (np.concatenate(part) for part in zip(*found, strict=True))
+    errors, phases, scaled, offsets, arms, places = (
+        np.concatenate(part) for part in zip(*found, strict=True)
+    )
     rows = np.tile(np.arange(len(first)), len(found))
     chosen = _best(np.where(np.isfinite(errors), errors, np.inf), rows, most)
     linkage = of.linkage[rows[chosen]].copy()
@@ -123,7 +128,9 @@ def _arms(
     return error, crank[0] * full, crank[1] * full, offset, scale, filled
 
 
-def for_path(task: Task, of: Atlas, most: int, random: np.random.Generator) -> tuple[Floats, Floats]:
+def for_path(
+    task: Task, of: Atlas, most: int, random: np.random.Generator
+) -> tuple[Floats, Floats]:
     """Starts whose coupler points move along nearly the given curve."""
     assert task.places is not None
     family, places = task.family, task.places
@@ -137,7 +144,7 @@ def for_path(task: Task, of: Atlas, most: int, random: np.random.Generator) -> t
     linkage[:, column : column + 2] = own
     curve = family.points(linkage, np.nan_to_num(angles))["P"]
     curve[~np.isfinite(angles[:, :, 0])] = np.nan
-    windows = _windows(places, curve)
+    windows = _windows(places)
     arcs = along(places)
     aim = _normal(np.interp(np.linspace(0.0, 1.0, _COMPARED), arcs, places)[None])[0]
     scores, kinds = [], []
@@ -154,13 +161,20 @@ def for_path(task: Task, of: Atlas, most: int, random: np.random.Generator) -> t
     errors = np.where(np.isfinite(errors), errors, np.inf)
     chosen = _best(errors, np.tile(rows, len(kinds)), most)
     made = [
-        _placed(task, linkage[k % len(rows)], angles[k % len(rows)], curve[k % len(rows)], kinds[k // len(rows)], arcs)
+        _placed(
+            task,
+            linkage[k % len(rows)],
+            angles[k % len(rows)],
+            curve=curve[k % len(rows)],
+            kind=kinds[k // len(rows)],
+            arcs=arcs,
+        )
         for k in chosen
     ]
     return np.stack([one[0] for one in made]), np.stack([one[1] for one in made])
 
 
-def _windows(places: Complexes, curve: Complexes) -> list[tuple[int, int]]:
+def _windows(places: Complexes) -> list[tuple[int, int]]:
     """The parts of a turn, or of two, with which a task is compared."""
     if closed(places):
         return [(first, first + TURN) for first in range(TURN)]
@@ -211,6 +225,7 @@ def _placed(
     task: Task,
     linkage: Floats,
     angles: Floats,
+    *,
     curve: Complexes,
     kind: tuple[int, int, bool, bool],
     arcs: Floats,

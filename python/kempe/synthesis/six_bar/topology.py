@@ -50,7 +50,9 @@ class Topology:
     def ground(self) -> str:
         """The names of the ground pivots."""
         placed = {point for points in self.bodies.values() for point in points[1:]}
-        return "".join(sorted({points[0] for points in self.bodies.values()} - placed, key="ODG".index))
+        return "".join(
+            sorted({points[0] for points in self.bodies.values()} - placed, key="ODG".index)
+        )
 
     @cached_property
     def names(self) -> str:
@@ -202,7 +204,7 @@ class Topology:
         return found
 
     def gaps(self, linkage: Floats, angles: Floats) -> tuple[Floats, Floats]:
-        """x and y of all closures, (n_linkages, n, 4), with slopes by the angles, (..., n_bodies)."""
+        """Gaps of the loops, (n_linkages, n, 4), with slopes by the angles, (..., n_bodies)."""
         turned = np.exp(1j * angles)
         sums = [self.sum(of, linkage, turned) for of in self.closures]
         slopes = [self.slopes(of, linkage, turned)[0] for of in self.closures]
@@ -211,10 +213,41 @@ class Topology:
             np.stack([part for z in slopes for part in (z.real, z.imag)], axis=-2),
         )
 
-    def followed(self, linkage: Floats, start: Floats, turns: Floats) -> Floats:
-        """Positions as the crank turns by given angles from a closed start, (n_linkages, n, n_bodies).
+    def room(self, linkage: Floats, angles: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+        """The determinant of the slopes of the gaps, which is zero at dead points.
 
-        NaN from the first position on that does not close, or that is far from the one before.
+        It is that of a linkage whose unknowns have the root of their sum of squares 1.
+
+        Returns:
+            Its sign and the logarithm of its size, (n_linkages, n), and the slopes of the logarithm
+            by the angles, (..., n_bodies), and by the unknowns of the linkage, (..., size).
+        """
+        turned, free = np.exp(1j * angles), np.arange(len(self.bodies)) != self.crank
+        both = [self.slopes(of, linkage, turned) for of in self.closures]
+        matrix = np.stack([part for z, _ in both for part in (z.real, z.imag)], axis=-2)
+        matrix = matrix[..., free]
+        with np.errstate(all="ignore"):
+            sign, log = np.linalg.slogdet(matrix)
+        inverse = solved(matrix, np.broadcast_to(np.eye(matrix.shape[-1]), matrix.shape))
+        by_angles, by_linkage = np.zeros(angles.shape), np.zeros((*angles.shape[:2], self.size))
+        for k, (own, more) in enumerate(both):
+            factor = np.zeros(angles.shape, dtype=complex)
+            factor[:, :, free] = inverse[..., 2 * k] - 1j * inverse[..., 2 * k + 1]
+            by_angles += (factor * 1j * own).real
+            for (body, j), column in self.columns.items():
+                for part in range(column, column + (1 if j == 1 else 2) * (body >= 0)):
+                    by_linkage[:, :, part] += (factor[:, :, body] * 1j * more[:, :, part]).real
+        own = np.where(np.arange(self.size) < self.angles, linkage, 0.0)
+        square = (own**2).sum(axis=1)[:, None]
+        order = 0.5 * matrix.shape[-1]
+        by_linkage -= 2.0 * order * (own / square)[:, None]
+        return sign, log - order * np.log(square), by_angles, by_linkage
+
+    def followed(self, linkage: Floats, start: Floats, turns: Floats) -> Floats:
+        """Positions as the crank turns by given angles from a closed start.
+
+        The positions are (n_linkages, n, n_bodies). NaN from the first one on that does not close,
+        or that is far from the one before.
         """
         found, now, before = [], start[:, None, :], 0.0
         ahead = np.zeros_like(now)
