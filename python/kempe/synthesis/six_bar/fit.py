@@ -19,8 +19,6 @@ from kempe.synthesis.tasks import Complexes
 
 #: The part of a step that shows its bend, and the largest bend as a part of it.
 _PART, _BENT = 0.1, 0.75
-#: The part of the error that keeps linkages away from dead points.
-_GUARD = 0.1
 
 
 @dataclass(frozen=True)
@@ -93,14 +91,12 @@ class _Sum:
     Attributes:
         task: what is fitted.
         weight: of the gaps.
-        ridges: weights of the unknowns of a linkage, which keep it small, (size,).
         guard: for each start a weight, (n,), which keeps its determinant away from zero, and the
             sign, (n, n_positions), and the mean logarithm of this determinant, (n,).
     """
 
     task: Task
     weight: float
-    ridges: Floats
     guard: tuple[Floats, Floats, Floats]
 
     def residuals(self, linkage: Floats, angles: Floats, rows: Any) -> tuple[Floats, ...]:
@@ -118,15 +114,9 @@ class _Sum:
             np.concatenate([more, np.nan_to_num(slopes[1])], axis=2),
         )
 
-    def of(self, residuals: Floats, linkage: Floats) -> Floats:
-        """The sums, (n,)."""
-        with np.errstate(over="ignore", invalid="ignore"):
-            found = (residuals**2).sum(axis=(1, 2)) + ((self.ridges * linkage) ** 2).sum(axis=1)
-        return np.where(np.isfinite(found), found, np.inf)
-
 
 def fitted(
-    task: Task, linkage: Floats, angles: Floats, weight: float, *, steps: int, ridge: float = 0.0
+    task: Task, linkage: Floats, angles: Floats, *, weight: float, steps: int, guard: float
 ) -> tuple[Floats, Floats, Floats]:
     """Linkages (n, size), their angles (n, n_positions, n_bodies) and errors near starts.
 
@@ -139,17 +129,16 @@ def fitted(
         angles: of their bodies, (n, n_positions, n_bodies).
         weight: of the gaps.
         steps: most trials of each start.
-        ridge: weight of the unknowns themselves, which keeps linkages small.
+        guard: the part of the error that keeps linkages away from dead points.
     """
     linkage, angles = np.clip(linkage, task.low, task.high), angles.copy()
     sign, log, _, _ = task.family.room(linkage, angles)
     first = task.residuals(linkage, angles, weight)[0]
-    share = _GUARD * np.sqrt((first**2).mean(axis=(1, 2)))
-    ridges = ridge * (np.arange(task.family.size) < task.family.angles)
-    of = _Sum(task, weight, ridges, (share, sign, log.mean(axis=1)))
+    share = guard * np.sqrt((first**2).mean(axis=(1, 2)))
+    of = _Sum(task, weight, (share, sign, log.mean(axis=1)))
     damping, active = np.full(len(linkage), 1e-3), np.arange(len(linkage))
     now = of.residuals(linkage, angles, active)
-    best = of.of(now[0], linkage)
+    best = _squares(now[0])
     for _ in range(steps):
         active, now = (
             active[np.isfinite(best[active])],
@@ -161,7 +150,7 @@ def fitted(
         to, by = _bent(of, (at, turned, active), now, damping[active])
         moved, turned = np.clip(at + to, task.low, task.high), turned + by
         new = of.residuals(moved, turned, active)
-        total = of.of(new[0], moved)
+        total = _squares(new[0])
         better = total < best[active]
         taken = active[better]
         idle = better & (total > best[active] * (1.0 - 1e-5)) | (total < 1e-28)
@@ -176,6 +165,13 @@ def fitted(
     return linkage, angles, np.sqrt((errors**2).mean(axis=(1, 2)))
 
 
+def _squares(residuals: Floats) -> Floats:
+    """Sums of squares, (n,)."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = (residuals**2).sum(axis=(1, 2))
+    return np.where(np.isfinite(found), found, np.inf)
+
+
 def _wide(flags: Any, like: Floats) -> Any:
     return flags.reshape(-1, *[1] * (like.ndim - 1))
 
@@ -186,11 +182,11 @@ def _bent(
     """Steps along parabolas, which follow narrow valleys (Transtrum and Sethna 2012)."""
     linkage, angles, rows = start
     residuals, own, more = now
-    to, by = _step(of.task, linkage, now, damping, of.ridges)
+    to, by = _step(of.task, linkage, now, damping)
     ahead = of.residuals(linkage + _PART * to, angles + _PART * by, rows)[0]
     straight = (own @ by[..., None] + more @ to[:, None, :, None])[..., 0]
     bend = np.nan_to_num(2.0 / _PART * ((ahead - residuals) / _PART - straight), posinf=0.0)
-    more_to, more_by = _step(of.task, linkage, (bend, own, more), damping, 0.0 * of.ridges)
+    more_to, more_by = _step(of.task, linkage, (bend, own, more), damping)
     sizes = [
         np.sqrt((x**2).sum(axis=1) + (y**2).sum(axis=(1, 2)))
         for x, y in ((to, by), (more_to, more_by))
@@ -200,7 +196,7 @@ def _bent(
 
 
 def _step(
-    task: Task, linkage: Floats, now: tuple[Floats, ...], damping: Floats, ridges: Floats
+    task: Task, linkage: Floats, now: tuple[Floats, ...], damping: Floats
 ) -> tuple[Floats, Floats]:
     """The steps of linkages and of the angles of their positions."""
     residuals, own, more = now
@@ -213,9 +209,7 @@ def _step(
     flat = more.reshape(count, -1, size)
     matrix = np.swapaxes(flat, 1, 2) @ flat
     right = (np.swapaxes(flat, 1, 2) @ residuals.reshape(count, -1, 1))[..., 0]
-    right += ridges**2 * linkage
-    diagonal = np.einsum("kii->ki", matrix) + ridges**2
-    matrix = matrix + np.diag(ridges**2)
+    diagonal = np.einsum("kii->ki", matrix)
     ahead = solved(block, np.concatenate([both, side], axis=-1))
     wide = both.reshape(count, -1, size)
     matrix = matrix - np.swapaxes(wide, 1, 2) @ ahead[..., :-1].reshape(count, -1, size)

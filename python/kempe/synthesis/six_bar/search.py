@@ -30,8 +30,8 @@ STARTS, _SECOND, _JUDGED = 64, 16, 24
 _ATLAS = 600
 #: Positions of the first fit.
 _FIRST = 12
-#: Weight of the gaps, steps, and weight of the unknowns in each fit.
-_STAGES = ((2.0, 40, 1e-3), (10.0, 60, 1e-4), (1e3, 40, 0.0))
+#: Weight of the gaps, steps, and the part of the error that keeps away from dead points.
+_STAGES = ((2.0, 40, 0.1), (10.0, 60, 0.1), (1e3, 40, 0.03), (1e3, 40, 1e-4))
 #: Rounds of starts until a six-bar has no defect.
 _ROUNDS = 3
 #: The least scales of angles if they are free.
@@ -186,10 +186,12 @@ def _improved(task: Task, linkage: Floats, angles: Floats) -> tuple[Floats, Floa
     """Six-bars near starts: some positions first, then all of them, with gaps that vanish."""
     n = task.count
     chosen = np.unique(np.linspace(0, n - 1, min(n, _FIRST)).round().astype(int))
-    for k, (weight, steps, ridge) in enumerate(_STAGES if len(linkage) else ()):
+    for k, (weight, steps, guard) in enumerate(_STAGES if len(linkage) else ()):
         some = task.part(chosen) if k == 0 else task
         given = angles[:, chosen] if k == 0 else angles
-        linkage, angles, sums = fitted(some, linkage, given, weight, steps=steps, ridge=ridge)
+        linkage, angles, sums = fitted(
+            some, linkage, given, weight=weight, steps=steps, guard=guard
+        )
         if k == 0:
             best = np.argsort(sums, kind="stable")[: _SECOND if n > _FIRST else len(sums)]
             at = np.interp(np.arange(n), chosen, np.arange(len(chosen)))
