@@ -90,8 +90,8 @@ def function(
     if samples is not None and samples < 1:
         refuse("samples", f"{samples}; at least one")
     if bodies is not None:
-        task = six_bars.Asked(bodies, asked, pivots, parts, samples, seed)
-        return six_bars.function(task, wanted, (offsets == "fixed", scales != "free"), length)
+        six = six_bars.Asked(bodies, asked, pivots, parts, samples, seed)
+        return six_bars.function(six, wanted, (offsets == "fixed", scales != "free"), length)
     tasks.pivots(pivots, "")
     fixed = (len(wanted) <= 3 and scales == "fixed") if offsets is None else offsets == "fixed"
     unknowns = 5 - 2 * fixed + 2 * (scales == "free")

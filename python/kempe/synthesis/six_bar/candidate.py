@@ -46,7 +46,7 @@ class SixBar(Candidate):
         """The distance of the first two points of each body, and ``ground``, that of O and D, m."""
         at = dict(zip(self.family.names, self.pins, strict=True))
         sides = {body: of[:2] for body, of in self.family.bodies.items()} | {"ground": "OD"}
-        return MappingProxyType({name: abs(at[x] - at[y]) for name, (x, y) in sides.items()})
+        return MappingProxyType({name: abs(at[of[0]] - at[of[1]]) for name, of in sides.items()})
 
     @property
     def type(self) -> str:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from kempe.base.arrays import Floats
-from kempe.synthesis.six_bar.topology import Topology, solved
+from kempe.synthesis.six_bar.topology import Term, Topology, solved
 from kempe.synthesis.tasks import Complexes
 
 #: The part of a step that shows its bend, and the largest bend as a part of it.
@@ -43,16 +43,14 @@ class Task:
     @property
     def count(self) -> int:
         """Number of positions."""
-        return len(self.crank if self.places is None and self.crank is not None else self.places)  # type: ignore[arg-type]
+        given = self.crank if self.places is None else self.places
+        return 0 if given is None else len(given)
 
     def part(self, chosen: Any) -> Task:
         """Some of the positions."""
-        taken = {
-            name: None if given is None else given[chosen]
-            for name in ("places", "crank", "arm")
-            for given in [getattr(self, name)]
-        }
-        return replace(self, **taken)
+        given = (self.places, self.crank, self.arm)
+        places, crank, arm = (None if of is None else of[chosen] for of in given)
+        return replace(self, places=places, crank=crank, arm=arm)
 
     def residuals(
         self, linkage: Floats, angles: Floats, weight: float
@@ -60,6 +58,7 @@ class Task:
         """Residuals (n_linkages, n, r), slopes by the angles and by the linkage, (..., size)."""
         of, turned = self.family, np.exp(1j * angles)
         found, own, more = [], [], []
+        sums: list[tuple[float, tuple[Term, ...], Any]]
         sums = [(weight, closure, None) for closure in of.closures]
         if self.places is not None:
             sums.append((1.0, of.places["P"], self.places))
@@ -108,11 +107,27 @@ class _Sum:
             far = share[:, None] * np.exp(mean[:, None] - log)
             slopes = [-far[:, :, None, None] * of[:, :, None] for of in (by_angles, by_linkage)]
         far = np.where(sign == signs, far, np.inf)
-        return (
-            np.concatenate([found, far[:, :, None]], axis=2),
-            np.concatenate([own, np.nan_to_num(slopes[0])], axis=2),
-            np.concatenate([more, np.nan_to_num(slopes[1])], axis=2),
-        )
+        parts = [(found, own, more), (far[:, :, None], *map(np.nan_to_num, slopes))]
+        if self.task.crank is None:
+            parts.append(self._order(angles, share))
+        first, second, third = (np.concatenate(part, axis=2) for part in zip(*parts, strict=True))
+        return first, second, third
+
+    def _order(self, angles: Floats, share: Floats) -> tuple[Floats, Floats, Floats]:
+        """Residuals that are infinite where the crank does not turn on to the next position.
+
+        Those of a pair of positions belong to both, and their slopes to each of them.
+        """
+        crank, (count, n, bodies) = self.task.family.crank, angles.shape
+        steps = np.diff(angles[:, :, crank], axis=1)
+        mean = (angles[:, -1, crank] - angles[:, 0, crank])[:, None] / max(n - 1, 1)
+        with np.errstate(all="ignore"):
+            pairs = np.where(steps * mean > 0.0, share[:, None] * mean / steps, np.inf)
+            slopes = np.nan_to_num(pairs / steps, posinf=0.0, neginf=0.0)
+        found, own = np.zeros((count, n, 2)), np.zeros((count, n, 2, bodies))
+        found[:, 1:, 0], own[:, 1:, 0, crank] = pairs, -slopes
+        found[:, :-1, 1], own[:, :-1, 1, crank] = pairs, slopes
+        return found, own, np.zeros((count, n, 2, self.task.family.size))
 
 
 def fitted(

@@ -15,6 +15,7 @@ from kempe.errors import KempeError
 from kempe.results.solution import Solution
 from kempe.synthesis.six_bar.candidate import SixBar
 from kempe.synthesis.six_bar.topology import Topology
+from kempe.synthesis.tasks import Complexes
 
 Flags: TypeAlias = NDArray[np.bool_]
 #: Directions of bodies that differ by less are the same position.
@@ -38,8 +39,8 @@ def judged(made: list[SixBar], linkage: Floats, angles: Floats, way: int) -> lis
     """
     found, missed = [], np.zeros(angles.shape[:2], dtype=bool)
     for k, one in enumerate(made):
-        told, places = _judged(one, linkage[k], angles[k], way)
-        found.append(told)
+        seen, places = _judged(one, linkage[k], angles[k], way)
+        found.append(seen)
         missed[k, places] = True
     rows = np.flatnonzero(missed.any(axis=1))
     if len(rows):
@@ -151,9 +152,9 @@ def transmission(family: Topology, linkage: Floats, angles: Floats) -> Floats:
     """The least sine of the transmission angles at positions, (n,)."""
     at = {name: z[0] for name, z in family.points(linkage[None], angles[None]).items()}
 
-    def sine(one: np.ndarray, two: np.ndarray) -> Floats:  # type: ignore[type-arg]
+    def sine(one: Complexes, two: Complexes) -> Floats:
         with np.errstate(all="ignore"):
-            return np.nan_to_num(abs((one.conj() * two).imag) / (abs(one) * abs(two)))
+            return np.asarray(np.nan_to_num(abs((one.conj() * two).imag) / (abs(one) * abs(two))))
 
     bodies = family.bodies
     if "strut" not in bodies:

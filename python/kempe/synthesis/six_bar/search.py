@@ -12,6 +12,7 @@ from kempe.base.arrays import Floats
 from kempe.errors import ModelError
 from kempe.model.values import Number, refuse
 from kempe.synthesis import tasks
+from kempe.synthesis.candidate import Candidate
 from kempe.synthesis.found import Found
 from kempe.synthesis.six_bar.candidate import SixBar
 from kempe.synthesis.six_bar.fit import Task, fitted
@@ -271,7 +272,7 @@ def _ranked(made: list[SixBar], limits: Limits, places: Complexes) -> Found:
         if limits.tell or not whole.defects:
             kept.append(whole)
 
-    def key(one: SixBar) -> tuple[float, ...]:
+    def key(one: Candidate) -> tuple[float, ...]:
         error = one.error if one.error > tasks.SAME * one.size else 0.0
         least = round(min(one.transmission_angle, np.pi / 4) * 100.0)
         return len(one.defects), error, -least, one.size

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kempe.base.arrays import Floats
 from kempe.synthesis.six_bar.fit import Task
@@ -39,7 +41,9 @@ class Atlas:
         at = {name: (z - origin) / unit for name, z in at.items()}
         linkage, start = family.from_points(at)
         half = np.arange(1, TURN // 2 + 1) * (2.0 * np.pi / TURN)
-        back, ahead = (family.followed(linkage, start, way * half) for way in (-1.0, 1.0))
+        back, ahead = (
+            family.followed(linkage, start, np.asarray(way * half)) for way in (-1.0, 1.0)
+        )
         turn = np.concatenate([back[:, ::-1], start[:, None], ahead], axis=1)
         with np.errstate(invalid="ignore"):
             gap = abs(np.exp(1j * turn[:, -1]) - np.exp(1j * turn[:, 0])).max(axis=1)
@@ -56,9 +60,9 @@ class Atlas:
         )
 
     @property
-    def turns(self) -> np.ndarray:  # type: ignore[type-arg]
+    def turns(self) -> NDArray[Any]:
         """Whether each crank turns fully, (n,)."""
-        return np.isfinite(self.angles[:, [0, -1], 0]).all(axis=1)
+        return np.asarray(np.isfinite(self.angles[:, [0, -1], 0]).all(axis=1))
 
 
 @lru_cache(maxsize=8)
@@ -67,11 +71,12 @@ def atlas(family: str, samples: int, seed: int) -> Atlas:
     return Atlas(topology(family), samples, seed)
 
 
-def between(angles: Floats, rows: np.ndarray, at: Floats) -> Floats:  # type: ignore[type-arg]
+def between(angles: Floats, rows: NDArray[Any], at: Floats) -> Floats:
     """Angles of the bodies at places between positions, (n_rows, n, n_bodies)."""
     low = np.clip(np.floor(at).astype(int), 0, angles.shape[1] - 2)
     share = (at - low)[..., None]
-    return angles[rows[:, None], low] * (1.0 - share) + angles[rows[:, None], low + 1] * share
+    after = np.where(share > 0.0, angles[rows[:, None], low + 1], 0.0)
+    return np.asarray(angles[rows[:, None], low] * (1.0 - share) + after * share)
 
 
 def for_function(
@@ -198,7 +203,7 @@ def along(places: Complexes) -> Floats:
     total = apart.sum()
     if closed(places):
         total += abs(places[-1] - places[0])
-    return np.concatenate([[0.0], np.cumsum(apart)]) / total
+    return np.asarray(np.concatenate([[0.0], np.cumsum(apart)]) / total)
 
 
 def _resampled(curve: Complexes, first: int, last: int) -> Complexes:
@@ -245,7 +250,7 @@ def _placed(
                 linkage[column + 1] *= -1.0
     here = family.points(linkage[None], turned[None])["P"][0]
     w, z = here - here.mean(), task.places - task.places.mean()
-    ratio = (w.conj() @ z) / max(float((w.conj() @ w).real), 1e-300)
+    ratio = (w.conj() @ z) / (w.conj() @ w).real
     linkage[: family.angles] *= abs(ratio)
     for k in range(len(family.ground)):
         at = complex(linkage[2 * k], linkage[2 * k + 1]) / (abs(ratio) or 1.0)
@@ -254,7 +259,7 @@ def _placed(
     return linkage, turned + np.angle(ratio)
 
 
-def _best(errors: Floats, rows: np.ndarray, most: int) -> np.ndarray:  # type: ignore[type-arg]
+def _best(errors: Floats, rows: NDArray[Any], most: int) -> NDArray[Any]:
     """The places of the least errors, with few of each row."""
     order = np.argsort(errors, kind="stable")[: 40 * most]
     order = order[np.isfinite(errors[order])]

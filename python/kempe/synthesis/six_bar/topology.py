@@ -152,7 +152,7 @@ class Topology:
         more = np.zeros((*turned.shape[:2], self.size), dtype=complex)
         for sign, body, k in terms:
             column = self.columns[body, k]
-            way: Complexes = np.ones(1) * sign if body < 0 else sign * turned[:, :, body]
+            way = np.full(1, sign, dtype=complex) if body < 0 else sign * turned[:, :, body]
             more[:, :, column] += way
             if column not in self.lengths:
                 more[:, :, column + 1] += 1j * way
@@ -201,7 +201,7 @@ class Topology:
             gaps, _ = self.gaps(linkage, found)
             bad = ~(abs(gaps).max(axis=2) <= CLOSED * unit[:, None])
         found[bad] = np.nan
-        return found
+        return np.asarray(found)
 
     def gaps(self, linkage: Floats, angles: Floats) -> tuple[Floats, Floats]:
         """Gaps of the loops, (n_linkages, n, 4), with slopes by the angles, (..., n_bodies)."""
@@ -249,7 +249,7 @@ class Topology:
         The positions are (n_linkages, n, n_bodies). NaN from the first one on that does not close,
         or that is far from the one before.
         """
-        found, now, before = [], start[:, None, :], 0.0
+        found, now, before = list[Floats](), start[:, None, :], 0.0
         ahead = np.zeros_like(now)
         for turn in turns:
             guess = now + ahead
@@ -266,7 +266,7 @@ class Topology:
 def solved(matrix: Floats, right: Floats) -> Floats:
     """Solutions of many linear systems; NaN for singular ones."""
     try:
-        return np.linalg.solve(matrix, right)
+        return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         flat = matrix.reshape(-1, *matrix.shape[-2:])
         good = np.linalg.matrix_rank(np.nan_to_num(flat)) == flat.shape[-1]
