@@ -109,7 +109,10 @@ def _panel(axes: Axes, found: Found, one: Candidate, number: int) -> None:
 def _plate(corners: list[Floats]) -> Any:
     from matplotlib.patches import Polygon
 
-    return Polygon(np.array(corners), facecolor="#DCE6F2", edgecolor="#000000", lw=1.0, zorder=2.8)
+    at = np.array(corners)
+    around = at - at.mean(axis=0)
+    order = np.argsort(np.arctan2(around[:, 1], around[:, 0]))
+    return Polygon(at[order], facecolor="#DCE6F2", edgecolor="#000000", lw=1.0, zorder=2.8)
 
 
 def _task(axes: Axes, found: Found, divisor: float) -> None:

@@ -32,7 +32,7 @@ _ATLAS = 600
 #: Positions of the first fit.
 _FIRST = 12
 #: Weight of the gaps, steps, and the part of the error that keeps away from dead points.
-_STAGES = ((2.0, 40, 0.1), (10.0, 60, 0.1), (1e3, 40, 0.03), (1e3, 40, 1e-4))
+_STAGES = ((2.0, 40, 0.1), (10.0, 60, 0.1), (1e3, 40, 0.03), (1e3, 30, 1e-3), (1e3, 30, 1e-3))
 #: Rounds of starts until a six-bar has no defect.
 _ROUNDS = 3
 #: The least scales of angles if they are free.
