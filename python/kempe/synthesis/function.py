@@ -93,21 +93,34 @@ def function(
         six = six_bars.Asked(bodies, asked, pivots, parts, samples, seed)
         return six_bars.function(six, wanted, (offsets == "fixed", scales != "free"), length)
     tasks.pivots(pivots, "")
-    fixed = (len(wanted) <= 3 and scales == "fixed") if offsets is None else offsets == "fixed"
-    unknowns = 5 - 2 * fixed + 2 * (scales == "free")
-    complete = scales == "fixed" and len(wanted) == unknowns
-    if scales == "free" or len(wanted) > unknowns:
-        bars = _fitted(wanted, (fixed, scales == "fixed"), seed, exact=len(wanted) <= unknowns)
-    else:
-        bars = bars_of(_dyads(wanted, fixed, samples or SAMPLES, seed), *wanted.T)
-    bars = scaled(bars, length)
-    if not len(bars.o):
-        none = "no four-bar found that couples" if scales == "free" else "no four-bar couples"
-        more = "try another seed" if scales == "free" else "let the offsets or scales be free"
-        hint = f"change or leave out a pair, or {more}"
-        raise ModelError(f"pairs: {none} all {len(wanted)} pairs", hint=hint)
+    free = (len(wanted) > 3 or scales == "free") if offsets is None else offsets == "free"
+    bars, complete = _four_bars(wanted, (not free, scales != "free"), samples or SAMPLES, seed)
     task = np.zeros(0, dtype=complex)
-    return assemble.collected(bars, asked, either=False, complete=complete, task=task)
+    return assemble.collected(
+        scaled(bars, length), asked, either=False, complete=complete, task=task
+    )
+
+
+def _four_bars(
+    pairs: Floats, fixed: tuple[bool, bool], samples: int, seed: int
+) -> tuple[Bars, bool]:
+    """Four-bars with ground 1 for fixed offsets and scales, and whether these are all.
+
+    Raises:
+        ModelError: none couples the pairs.
+    """
+    unknowns = 5 - 2 * fixed[0] + 2 * (not fixed[1])
+    if not fixed[1] or len(pairs) > unknowns:
+        bars = _fitted(pairs, fixed, seed, exact=len(pairs) <= unknowns)
+    else:
+        bars = bars_of(_dyads(pairs, fixed[0], samples, seed), *pairs.T)
+    bars = bars.shapely()
+    if not len(bars.o):
+        none = "no four-bar couples" if fixed[1] else "no four-bar found that couples"
+        more = "let the offsets or scales be free" if fixed[1] else "try another seed"
+        hint = f"change or leave out a pair, or {more}"
+        raise ModelError(f"pairs: {none} all {len(pairs)} pairs", hint=hint)
+    return bars, fixed[1] and len(pairs) == unknowns
 
 
 def scaled(bars: Bars, length: float) -> Bars:
