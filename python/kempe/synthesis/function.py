@@ -55,23 +55,19 @@ def function(
     that solutions may be missing.
 
     The output of a six-bar is its body ``arm``, which turns about a ground pivot except in "watt_1"
-    and "stephenson_1". Six-bars are found by least squares from those of an atlas whose outputs are
-    nearest, for any number of pairs. The analyses ``limits`` and ``kinematics`` of each case give
-    its defects. Solutions may be missing.
+    and "stephenson_1". Least squares start from an atlas, for any number of pairs.
 
     Args:
         pairs: angles of crank and output, rad, or texts such as "30 deg"; with free scales any
             numbers x and y.
-        family: "four_bar", or a six-bar: "watt_1", "watt_2", "stephenson_1", "stephenson_2" or
-            "stephenson_3".
+        family: "four_bar", or a six-bar as for ``path``.
         scales: "fixed", or "free" if only proportions count.
         offsets: "free" or "fixed"; by default fixed for up to three pairs of a
             four-bar, otherwise free.
         ground: the distance of O and D, m.
         pivots: the fixed ground pivot of a six-bar with three of them, ``{"G": (x, y)}``, m.
         parts: prescribed bodies of a six-bar, as for ``path``.
-        samples: number of samples of free choices, or of starts of a six-bar; None for as many as
-            the task usually needs.
+        samples: of free choices, or starts of a six-bar; None for as many as usual.
         seed: of the samples and starts.
         limits: ``defects``, ``transmission_angle``, ``grashof``, ``within``, ``direction`` and
             ``masses``; ``limits`` describes them.
@@ -87,18 +83,14 @@ def function(
     if not length > 0.0:
         refuse("ground", f"{ground!r}; must be > 0")
     wanted = tasks.pairs(pairs, "" if scales == "free" else "rad")
-    if samples is not None and samples < 1:
-        refuse("samples", f"{samples}; at least one")
     if bodies is not None:
         six = six_bars.Asked(bodies, asked, pivots, parts, samples, seed)
         return six_bars.function(six, wanted, (offsets == "fixed", scales != "free"), length)
     tasks.pivots(pivots, "")
     free = (len(wanted) > 3 or scales == "free") if offsets is None else offsets == "free"
-    bars, complete = _four_bars(wanted, (not free, scales != "free"), samples or SAMPLES, seed)
-    task = np.zeros(0, dtype=complex)
-    return assemble.collected(
-        scaled(bars, length), asked, either=False, complete=complete, task=task
-    )
+    bars, all_ = _four_bars(wanted, (not free, scales != "free"), samples or SAMPLES, seed)
+    none = np.zeros(0, dtype=complex)
+    return assemble.collected(scaled(bars, length), asked, either=False, complete=all_, task=none)
 
 
 def _four_bars(

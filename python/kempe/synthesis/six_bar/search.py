@@ -110,6 +110,8 @@ def function(asked: Asked, pairs: Floats, fixed: tuple[bool, bool], ground: floa
     Raises:
         ModelError: no six-bar was found, or the parts are wrong.
     """
+    if asked.starts is not None and asked.starts < 1:
+        refuse("samples", f"{asked.starts}; at least one")
     of, frame = asked.family, (0j, ground)
     low, high = asked.bounds(frame, {"O": 0j, "D": complex(ground)}, of.ground.strip("OD"))
     coupler = list(of.bodies).index("coupler")
