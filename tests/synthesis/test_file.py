@@ -58,3 +58,19 @@ def test_wrong_files_are_explained(tmp_path: Path) -> None:
     wrong = written(tmp_path, "x [deg], y, angle", np.zeros((2, 3)))
     with pytest.raises(kp.ModelError, match="x"):
         kp.synthesis.from_file("motion", wrong)
+
+
+def test_a_section_with_a_six_bar_and_prescribed_parts(tmp_path: Path) -> None:
+    path = tmp_path / "generator.toml"
+    path.write_text(
+        "kempe = 1\n[synthesis]\ntask = 'function'\nfamily = 'watt_2'\n"
+        "pairs = [[0, 0], ['30 deg', '10 deg'], ['60 deg', '25 deg']]\nsamples = 8\n"
+        "[synthesis.pivots]\nG = [0.3, 0.1]\n"
+        "[synthesis.parts]\ncrank = 0.2\narm = [0.2, 2]\nlink = { A = [0, 0], B = [1, 0] }\n"
+    )
+    best = kp.synthesis.from_case(kp.load(path), defects="tell")[0]
+    assert best.points["G"] == pytest.approx((0.3, 0.1), abs=1e-12)
+    assert [best.lengths[name] for name in ("crank", "link")] == pytest.approx([0.2, 1.0])
+    path.write_text(path.read_text().replace("arm = [0.2, 2]", "arm = true"))
+    with pytest.raises(kp.KempeError, match="arm"):
+        kp.load(path)

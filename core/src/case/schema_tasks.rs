@@ -14,13 +14,15 @@ pub(super) fn synthesis() -> Value {
     let rows = |n: u32| json!({ "type": "array", "items": row(n) });
     let whole = |least: u32| json!({ "type": "integer", "minimum": least });
     let kinds = json!([{ "type": "boolean" }, { "type": "string" }]);
+    let part = json!({ "anyOf": [with_unit(), row(2), by_any_name(row(2))] });
     let fields = json!({
         "task": { "enum": TASKS.each(|(task, _)| task) },
         "poses": described(rows(3), "x, y and angle of the moving frame at each pose."),
         "points": described(rows(2), "Points that the coupler point must pass."),
         "angles": described(json!({ "type": "array", "items": with_unit() }), "Crank angles at the points."),
         "pairs": described(rows(2), "Angles of crank and rocker."),
-        "pivots": described(by_any_name(row(2)), "Fixed ground pivots O and D."),
+        "pivots": described(by_any_name(row(2)), "Fixed ground pivots."),
+        "parts": described(by_any_name(part), "Lengths, ranges or points of bodies of six-bars."),
         "family": { "enum": FAMILIES },
         "defects": { "enum": DEFECTS },
         "direction": { "enum": DIRECTIONS },

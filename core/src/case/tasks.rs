@@ -14,7 +14,15 @@ use crate::model::{Model, Problem, Value};
 pub(super) const TASKS: [(&str, &str); 3] =
     [("motion", "poses"), ("path", "points"), ("function", "pairs")];
 /// Words for `family`, `defects`, `direction`, `scales` and `offsets`.
-pub(super) const FAMILIES: [&str; 2] = ["four_bar", "slider_crank"];
+pub(super) const FAMILIES: [&str; 7] = [
+    "four_bar",
+    "slider_crank",
+    "watt_1",
+    "watt_2",
+    "stephenson_1",
+    "stephenson_2",
+    "stephenson_3",
+];
 pub(super) const DEFECTS: [&str; 2] = ["exclude", "tell"];
 pub(super) const DIRECTIONS: [&str; 2] = ["ccw", "cw"];
 pub(super) const FREEDOMS: [&str; 2] = ["fixed", "free"];
@@ -33,8 +41,8 @@ pub(super) const COMMON: [&str; 10] = [
 ];
 const OWN: [&[&str]; 3] = [
     &["poses", "pivots", "samples"],
-    &["points", "angles", "offsets", "pivots", "starts"],
-    &["pairs", "scales", "offsets", "ground", "samples"],
+    &["points", "angles", "offsets", "pivots", "parts", "starts"],
+    &["pairs", "scales", "offsets", "ground", "pivots", "parts", "samples"],
 ];
 /// Keys of a question and of a range of a parameter.
 const QUESTION: [&str; 8] =
@@ -67,6 +75,13 @@ pub(super) fn synthesis(
         "angles" => row(report, value, None, "[\"10 deg\", \"40 deg\"]"),
         "pivots" => named(report, value, "O = [0, 0]", |report, node| {
             row(report, node, Some(2), "[0, 0]");
+        }),
+        "parts" => named(report, value, "crank = 0.3", |report, node| match node.data {
+            Data::Table(_) => named(report, node, "O = [0, 0]", |report, node| {
+                row(report, node, Some(2), "[0, 0]");
+            }),
+            Data::List(_) => row(report, node, Some(2), "[0.1, 0.3]"),
+            _ => with_unit(report, node),
         }),
         "family" => word(report, value, &FAMILIES),
         "defects" => word(report, value, &DEFECTS),

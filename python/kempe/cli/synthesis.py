@@ -47,7 +47,11 @@ def synthesis(  # noqa: PLR0917 - typer uses the annotations of options and argu
         typer.Option("--output", "-o", help="Folder for results; default out/<FILE>/synthesis."),
     ] = None,
     family: Annotated[
-        str | None, typer.Option(help="four_bar, the default; slider_crank for motion.")
+        str | None,
+        typer.Option(
+            help="four_bar, the default; slider_crank for motion; watt_1, watt_2, stephenson_1, "
+            "stephenson_2 or stephenson_3 for path and function."
+        ),
     ] = None,
     tell: Annotated[bool, typer.Option("--tell", help="Keep candidates with defects.")] = False,
     transmission_angle: Annotated[

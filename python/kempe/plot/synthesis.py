@@ -72,19 +72,21 @@ def _panel(axes: Axes, found: Found, one: Candidate, number: int) -> None:
 
     unit = scale("m", one.size)
     places = one.positions(200) / unit.divisor
-    path = places[2]
+    path = places[-1]
     axes.plot(*path.T, color=style.COLOURS[0], linewidth=1.0, zorder=2.5)
     _task(axes, found, unit.divisor)
     at = {name: np.array(point) / unit.divisor for name, point in one.points.items()}
-    axes.add_patch(_plate([at["A"], at["B"], at["P"]]))
-    links = [at["O"], at["A"]], [at.get("D", at["B"]), at["B"]]
-    for link in links:
-        axes.plot(*np.array(link).T, zorder=3.0, **_LINK)
-    for name in at.keys() & set("OD"):
+    for names in one.outline.values():
+        corners = [at[name] for name in names if name in at]
+        if len(corners) > 2:
+            axes.add_patch(_plate(corners))
+        else:
+            axes.plot(*np.array(corners).T, zorder=3.0, **_LINK)
+    for name in at.keys() & set("ODG"):
         axes.plot(*at[name], "^", color="#000000", markersize=6.0, zorder=3.1)
     if isinstance(one, SliderCrank):
         axes.plot(*places[1].T, color="#7F7F7F", linewidth=3.0, alpha=0.5, zorder=2.4)
-    for name in "AB":
+    for name in at.keys() - set("ODGP"):
         axes.plot(*at[name], "o", markersize=4.0, **_PIN)
     for name in at.keys() - {"P"}:
         axes.annotate(
@@ -107,7 +109,10 @@ def _panel(axes: Axes, found: Found, one: Candidate, number: int) -> None:
 def _plate(corners: list[Floats]) -> Any:
     from matplotlib.patches import Polygon
 
-    return Polygon(np.array(corners), facecolor="#DCE6F2", edgecolor="#000000", lw=1.0, zorder=2.8)
+    at = np.array(corners)
+    around = at - at.mean(axis=0)
+    order = np.argsort(np.arctan2(around[:, 1], around[:, 0]))
+    return Polygon(at[order], facecolor="#DCE6F2", edgecolor="#000000", lw=1.0, zorder=2.8)
 
 
 def _task(axes: Axes, found: Found, divisor: float) -> None:

@@ -1,9 +1,9 @@
 """Linkages for a task: poses of the coupler, points of a path, pairs of angles.
 
     motion                  linkages whose coupler takes poses
-    path                    four-bars whose coupler point passes points
+    path                    four-bars and six-bars whose coupler point passes points
     cognates                the two other four-bars with the same coupler curve
-    function                four-bars that couple angles of crank and rocker
+    function                four-bars and six-bars that couple angles of crank and output
     from_file               the task of a CSV file
     dyads                   all dyads of five poses
     limits                  the limits of candidates that all of them accept
@@ -23,6 +23,7 @@ from kempe.synthesis.function import function
 from kempe.synthesis.motion import motion
 from kempe.synthesis.path import path
 from kempe.synthesis.read import from_case, from_file
+from kempe.synthesis.six_bar.candidate import SixBar
 from kempe.synthesis.slider import SliderCrank
 
 __all__ = [
@@ -30,6 +31,7 @@ __all__ = [
     "Candidate",
     "Followed",
     "Found",
+    "SixBar",
     "SliderCrank",
     "burmester",
     "cognates",

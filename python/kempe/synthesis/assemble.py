@@ -18,6 +18,7 @@ from kempe.synthesis import tasks
 from kempe.synthesis.candidate import TYPES, Candidate, masses_of
 from kempe.synthesis.dyads import Dyads
 from kempe.synthesis.found import Followed, Found
+from kempe.synthesis.six_bar.topology import FAMILIES, Topology, topology
 from kempe.synthesis.slider import SliderCrank
 from kempe.synthesis.tasks import Complexes
 
@@ -64,8 +65,8 @@ def limits(
         grashof: True if Grashof's condition must hold, or a type such as "crank-rocker".
         within: limits of both ground pivots, ``[(x_min, x_max), (y_min, y_max)]``, m.
         direction: "ccw" or "cw", in which the crank turns through the task; None for either.
-        masses: masses of ``crank``, ``coupler`` and ``rocker``, kg; by default 1 kg per metre of
-            their sides.
+        masses: masses by body, such as ``crank``, ``coupler`` and ``rocker``, kg; by default 1 kg
+            per metre of their sides.
 
     Raises:
         ModelError: one of them is invalid.
@@ -232,14 +233,29 @@ def _candidate(bars: Bars, of: _core.RankedLinkage, limits: Limits) -> Candidate
     return made
 
 
-def families(family: str, known: Sequence[str] = ("four_bar",)) -> None:
-    """Refuse an unknown family.
+def families(
+    family: str,
+    known: Sequence[str],
+    limits: Mapping[str, Any],
+    parts: Mapping[str, Any] | None = None,
+) -> Topology | None:
+    """The bodies of a family of six-bars; None for the others.
 
     Raises:
-        ModelError: it is unknown.
+        ModelError: the family is unknown, or has no such masses, parts or types.
     """
     if family not in known:
         refuse("family", f"{family!r}; must be {' or '.join(map(repr, known))}")
+    six = topology(family) if family in FAMILIES else None
+    own = ("crank", "coupler", "rocker", "slider") if six is None else tuple(six.bodies)
+    for name in limits.get("masses") or {}:
+        if name not in own:
+            refuse("masses", f"{name!r}; must be {', '.join(own[:-1])} or {own[-1]}")
+    if six is None and parts is not None:
+        refuse("parts", "only those of six-bars can be prescribed; choose such a family")
+    if six is not None and isinstance(limits.get("grashof"), str):
+        refuse("grashof", "types are those of four-bars; must be True or False for six-bars")
+    return six
 
 
 def together(parts: list[Bars]) -> Bars:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from kempe.case import Case
 
 #: Speed of the crank, rad/s, and outputs of a motion.
-SPEED, _OUTPUTS = 2.0 * np.pi, 180
+SPEED, OUTPUTS = 2.0 * np.pi, 180
 #: Types of Grashof's linkages, by the shortest of ``_LINKS``.
 TYPES = ("crank-rocker", "double-rocker", "rocker-crank", "double-crank")
 _LINKS = ("crank", "coupler", "rocker", "ground")
@@ -49,6 +49,11 @@ class Candidate:
     defects: tuple[str, ...]
     crank_angles: Floats
     masses: Mapping[str, float] = field(repr=False, default_factory=dict)
+
+    @property
+    def outline(self) -> Mapping[str, str]:
+        """The names of the points of each body."""
+        return MappingProxyType({"crank": "OA", "coupler": "ABP", "rocker": "DB"})
 
     @property
     def points(self) -> Mapping[str, tuple[float, float]]:
@@ -91,14 +96,14 @@ class Candidate:
 
         o, a, b, _, p = self.pins
         m = Model(self.type, gravity=(0.0, -9.81))
-        m.ground.points(O=_pair(o), D=_pair(self.pins[3]))
-        m.bar("crank", mass=self._mass("crank", abs(a - o)), through={"O": _pair(o), "A": _pair(a)})
+        m.ground.points(O=pair(o), D=pair(self.pins[3]))
+        m.bar("crank", mass=self._mass("crank", abs(a - o)), through={"O": pair(o), "A": pair(a)})
         turn = np.exp(-1j * self.frame)
         corners = {"A": (a - p) * turn, "B": (b - p) * turn, "P": 0j}
         m.body(
             "coupler",
-            points={name: _pair(at) for name, at in corners.items()},
-            shapes=self._rods(list(corners.values())),
+            points={name: pair(at) for name, at in corners.items()},
+            shapes=self._rods("coupler", list(corners.values())),
         )
         m.revolute("O", "ground.O", "crank.O")
         m.revolute("A", "crank.A", "coupler.A")
@@ -112,13 +117,13 @@ class Candidate:
             "coupler.angle": self.frame,
             **output,
         }
-        motion = {"type": "inverse_dynamics", "t_end": t_end, "output_step": t_end / _OUTPUTS}
+        motion = {"type": "inverse_dynamics", "t_end": t_end, "output_step": t_end / OUTPUTS}
         return Case(m, {"guess": guess}, analyses={"motion": motion})
 
     def _output(self, m: Model) -> dict[str, float]:
         """Add the output link to a model; its coordinates at the start."""
         _, _, b, d, _ = self.pins
-        ends = {"D": _pair(d), "B": _pair(b)}
+        ends = {"D": pair(d), "B": pair(b)}
         m.bar("rocker", mass=self._mass("rocker", abs(b - d)), through=ends)
         m.revolute("B", "coupler.B", "rocker.B")
         m.revolute("D", "ground.D", "rocker.D")
@@ -134,17 +139,23 @@ class Candidate:
     def _mass(self, body: str, length: float) -> float:
         return self.masses.get(body, length)
 
-    def _rods(self, corners: list[complex]) -> list[dict[str, Any]]:
-        """Rods between the corners, together the mass of the coupler."""
-        sides = [(corners[i], corners[j]) for i, j in ((0, 1), (1, 2), (2, 0))]
-        sides = [(x, y) for x, y in sides if abs(y - x) > 1e-9 * self.size]
+    def _sides(self, corners: list[complex]) -> list[tuple[complex, complex]]:
+        """The sides between the corners of a body, each once."""
+        ends = corners[1:] + corners[:1] * (len(corners) > 2)
+        return [
+            (x, y) for x, y in zip(corners, ends, strict=False) if abs(y - x) > 1e-9 * self.size
+        ]
+
+    def _rods(self, body: str, corners: list[complex]) -> list[dict[str, Any]]:
+        """Rods between the corners, together the mass of a body."""
+        sides = self._sides(corners)
         total = sum(abs(y - x) for x, y in sides)
-        share = self._mass("coupler", total) / total
+        share = self._mass(body, total) / total
         return [
             {
                 "type": "rod",
                 "length": abs(y - x),
-                "at": _pair((x + y) / 2.0),
+                "at": pair((x + y) / 2.0),
                 "angle": float(np.angle(y - x)),
                 "mass": share * abs(y - x),
             }
@@ -179,7 +190,8 @@ class Candidate:
         return f"<Candidate {self.type}: {lengths} m; error {self.error:.2g}; {wrong}>"
 
 
-def _pair(at: complex) -> tuple[float, float]:
+def pair(at: complex) -> tuple[float, float]:
+    """Coordinates of a point."""
     return float(at.real), float(at.imag)
 
 
@@ -187,12 +199,10 @@ def masses_of(given: Mapping[str, Any] | None) -> dict[str, float]:
     """Masses by body, kg; the others have 1 kg per metre of their sides.
 
     Raises:
-        ModelError: a name is unknown, or a mass is not positive.
+        ModelError: a mass is not positive.
     """
     found = {}
     for name, mass in (given or {}).items():
-        if name not in (*_LINKS[:3], "slider"):
-            refuse("masses", f"{name!r}; must be crank, coupler, rocker or slider")
         found[name] = value(mass, f"masses.{name}", "kg")
         if not found[name] > 0.0:
             refuse(f"masses.{name}", f"{mass!r}; must be > 0")

@@ -39,6 +39,9 @@ def cognates(case: Case | Candidate) -> Found:
     from kempe.case import Case
 
     instance(case, (Candidate, Case), "a candidate or " + "a case, as kp.load(path) returns")
+    if isinstance(case, Candidate) and type(case) is not Candidate:
+        hint = "choose a four-bar"
+        raise ModelError(f"a {case.type} has no cognates that are four-bars", hint=hint)
     pins = case.pins if isinstance(case, Candidate) else _pins(case)
     o, a, b, d, p = (np.array([[at]]) for at in pins)
     far = abs(b - a)

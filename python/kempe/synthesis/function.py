@@ -1,8 +1,8 @@
-"""Function generation: four-bars that couple the angles of crank and rocker."""
+"""Function generation: linkages that couple the angles of crank and rocker."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from kempe.synthesis import assemble, tasks
 from kempe.synthesis.assemble import Bars, distinct
 from kempe.synthesis.dyads import Conditions, Dyads, joined
 from kempe.synthesis.found import Found
+from kempe.synthesis.six_bar import search as six_bars
 from kempe.synthesis.tasks import Complexes
 
 #: Samples of free choices; starts of least squares, rounds until one succeeds, and steps.
@@ -37,11 +38,13 @@ def function(
     scales: str = "fixed",
     offsets: str | None = None,
     ground: Number = 1.0,
-    samples: int = SAMPLES,
+    pivots: Mapping[str, Sequence[Number]] | None = None,
+    parts: Mapping[str, Any] | None = None,
+    samples: int | None = None,
     seed: int = 0,
     **limits: Any,
 ) -> Found:
-    """Four-bars whose rocker has given angles at given angles of the crank.
+    """Linkages whose output has given angles at given angles of the crank.
 
     O is at (0, 0) and D at (ground, 0). With free offsets, only the differences of the angles
     count: five pairs have at most three four-bars, and all of them are found, by elimination. With
@@ -51,22 +54,28 @@ def function(
     rotations, and up to seven pairs can be exact; Newton's method starts from random four-bars, so
     that solutions may be missing.
 
+    The output of a six-bar is its body ``arm``, which turns about a ground pivot except in "watt_1"
+    and "stephenson_1". Least squares start from an atlas, for any number of pairs.
+
     Args:
-        pairs: angles of crank and rocker, rad, or texts such as "30 deg"; with free scales any
+        pairs: angles of crank and output, rad, or texts such as "30 deg"; with free scales any
             numbers x and y.
-        family: "four_bar".
+        family: "four_bar", or a six-bar as for ``path``.
         scales: "fixed", or "free" if only proportions count.
-        offsets: "free" or "fixed"; by default fixed for up to three pairs, otherwise free.
+        offsets: "free" or "fixed"; by default fixed for up to three pairs of a
+            four-bar, otherwise free.
         ground: the distance of O and D, m.
-        samples: number of samples of free choices.
+        pivots: the fixed ground pivot of a six-bar with three of them, ``{"G": (x, y)}``, m.
+        parts: prescribed bodies of a six-bar, as for ``path``.
+        samples: of free choices, or starts of a six-bar; None for as many as usual.
         seed: of the samples and starts.
         limits: ``defects``, ``transmission_angle``, ``grashof``, ``within``, ``direction`` and
             ``masses``; ``limits`` describes them.
 
     Raises:
-        ModelError: no four-bar couples the angles, or an argument is invalid.
+        ModelError: no linkage couples the angles, or an argument is invalid.
     """
-    assemble.families(family)
+    bodies = assemble.families(family, ("four_bar", *six_bars.FAMILIES), limits, parts)
     asked, length = assemble.limits(**limits), value(ground, "ground", "m")
     for name, given in (("scales", scales), ("offsets", offsets)):
         if given not in ("fixed", "free", None):
@@ -74,21 +83,36 @@ def function(
     if not length > 0.0:
         refuse("ground", f"{ground!r}; must be > 0")
     wanted = tasks.pairs(pairs, "" if scales == "free" else "rad")
-    fixed = (len(wanted) <= 3 and scales == "fixed") if offsets is None else offsets == "fixed"
-    unknowns = 5 - 2 * fixed + 2 * (scales == "free")
-    complete = scales == "fixed" and len(wanted) == unknowns
-    if scales == "free" or len(wanted) > unknowns:
-        bars = _fitted(wanted, (fixed, scales == "fixed"), seed, exact=len(wanted) <= unknowns)
+    if bodies is not None:
+        six = six_bars.Asked(bodies, asked, pivots, parts, samples, seed)
+        return six_bars.function(six, wanted, (offsets == "fixed", scales != "free"), length)
+    tasks.pivots(pivots, "")
+    free = (len(wanted) > 3 or scales == "free") if offsets is None else offsets == "free"
+    bars, all_ = _four_bars(wanted, (not free, scales != "free"), samples or SAMPLES, seed)
+    none = np.zeros(0, dtype=complex)
+    return assemble.collected(scaled(bars, length), asked, either=False, complete=all_, task=none)
+
+
+def _four_bars(
+    pairs: Floats, fixed: tuple[bool, bool], samples: int, seed: int
+) -> tuple[Bars, bool]:
+    """Four-bars with ground 1 for fixed offsets and scales, and whether these are all.
+
+    Raises:
+        ModelError: none couples the pairs.
+    """
+    unknowns = 5 - 2 * fixed[0] + 2 * (not fixed[1])
+    if not fixed[1] or len(pairs) > unknowns:
+        bars = _fitted(pairs, fixed, seed, exact=len(pairs) <= unknowns)
     else:
-        bars = bars_of(_dyads(wanted, fixed, samples, seed), *wanted.T)
-    bars = scaled(bars, length)
+        bars = bars_of(_dyads(pairs, fixed[0], samples, seed), *pairs.T)
+    bars = bars.shapely()
     if not len(bars.o):
-        none = "no four-bar found that couples" if scales == "free" else "no four-bar couples"
-        more = "try another seed" if scales == "free" else "let the offsets or scales be free"
+        none = "no four-bar couples" if fixed[1] else "no four-bar found that couples"
+        more = "let the offsets or scales be free" if fixed[1] else "try another seed"
         hint = f"change or leave out a pair, or {more}"
-        raise ModelError(f"pairs: {none} all {len(wanted)} pairs", hint=hint)
-    task = np.zeros(0, dtype=complex)
-    return assemble.collected(bars, asked, either=False, complete=complete, task=task)
+        raise ModelError(f"pairs: {none} all {len(pairs)} pairs", hint=hint)
+    return bars, fixed[1] and len(pairs) == unknowns
 
 
 def scaled(bars: Bars, length: float) -> Bars:

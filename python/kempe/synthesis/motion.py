@@ -55,7 +55,7 @@ def motion(
         ModelError: no linkage takes the poses, two of them are the same, or a pivot contradicts
             them.
     """
-    assemble.families(family, ("four_bar", "slider_crank"))
+    assemble.families(family, ("four_bar", "slider_crank"), limits)
     places, angles = tasks.poses(poses)
     fixed = tasks.pivots(pivots, "O D" if family == "four_bar" else "O")
     asked = assemble.limits(**limits)

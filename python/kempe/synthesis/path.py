@@ -1,4 +1,4 @@
-"""Path synthesis: four-bars whose coupler point passes given points."""
+"""Path synthesis: linkages whose coupler point passes given points."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from kempe.model.given import value
 from kempe.model.values import Number, refuse
 from kempe.synthesis import assemble, nine, tasks
 from kempe.synthesis.found import Found
+from kempe.synthesis.six_bar import search as six_bars
 from kempe.synthesis.tasks import Complexes
 
 
@@ -22,11 +23,12 @@ def path(
     *,
     offsets: str = "free",
     pivots: Mapping[str, Sequence[Number]] | None = None,
+    parts: Mapping[str, Any] | None = None,
     starts: int | None = None,
     seed: int = 0,
     **limits: Any,
 ) -> Found:
-    """Four-bars whose coupler point passes points, in the given order.
+    """Linkages whose coupler point passes points, in the given order.
 
     With crank angles, all solutions for five points are found, by elimination. Fewer points leave
     choices, which are sampled; up to four can be exact if the angles are measured from the x axis.
@@ -38,13 +40,21 @@ def path(
     closed if its ends are as near as the points. ``synthesis/src/path/`` and
     ``synthesis/src/nine/`` contain the searches.
 
+    Six-bars are approximated by least squares for any number of points. Starts are those of an
+    atlas of random six-bars whose coupler curves resemble the one through the points. The analyses
+    ``limits`` and ``kinematics`` of each case give its defects. Solutions may be missing.
+
     Args:
         points: x and y, m.
-        family: "four_bar".
+        family: "four_bar", or a six-bar: "watt_1", "watt_2", "stephenson_1", "stephenson_2" or
+            "stephenson_3".
         angles: angle of the crank at each point, rad, or texts such as "30 deg"; None if free.
         offsets: "free" if only differences of the angles count, "fixed" if they are measured from
             the x axis.
         pivots: fixed ground pivots, ``{"O": (x, y), "D": (x, y)}``, m; O belongs to the crank.
+        parts: prescribed bodies of a six-bar: the distance of its first two points, m, the least
+            and the largest one, or all its points in a frame of its own, as in
+            ``{"crank": 0.1, "arm": (0.2, 0.4), "link": {"A": (0, 0), "B": (0.3, 0), "C": ...}}``.
         starts: number of starts; None for as many as the task usually needs. With a number, nine
             points are searched from starts, too.
         seed: of samples and starts.
@@ -52,7 +62,7 @@ def path(
             ``masses``; ``limits`` describes them.
 
     Raises:
-        ModelError: no four-bar was found, or an argument is invalid.
+        ModelError: no linkage was found, or an argument is invalid.
     """
     return solved(
         points,
@@ -60,6 +70,7 @@ def path(
         angles,
         offsets=offsets,
         pivots=pivots,
+        parts=parts,
         starts=starts,
         seed=seed,
         follows=True,
@@ -74,20 +85,24 @@ def solved(
     *,
     offsets: str = "free",
     pivots: Mapping[str, Sequence[Number]] | None = None,
+    parts: Mapping[str, Any] | None = None,
     starts: int | None = None,
     seed: int = 0,
     follows: bool,
     **limits: Any,
 ) -> Found:
     """The same; ``follows`` says whether stored solutions are followed, which the studio lacks."""
-    assemble.families(family)
+    bodies = assemble.families(family, ("four_bar", *six_bars.FAMILIES), limits, parts)
     asked, places = assemble.limits(**limits), tasks.points(points)
-    fixed = tasks.pivots(pivots, "O D")
     if offsets not in ("free", "fixed"):
         refuse("offsets", f"{offsets!r}; must be 'free' or 'fixed'")
     if starts is not None and starts < 1:
         refuse("starts", f"{starts}; at least one")
     cranks = [] if angles is None else _angles(angles, len(places))
+    if bodies is not None:
+        task = six_bars.Asked(bodies, asked, pivots, parts, starts, seed)
+        return six_bars.path(task, places, cranks, fixed=offsets == "fixed")
+    fixed = tasks.pivots(pivots, "O D")
     either = angles is None and not fixed
     follows = follows and either and starts is None
     bars, complete, followed = None, False, None

@@ -98,7 +98,8 @@ def pivots(given: Mapping[str, Sequence[Number]] | None, names: str) -> dict[str
     found = {}
     for name, at in (given or {}).items():
         if name not in names.split():
-            refuse("pivots", f"{name!r}; must be one of {names}")
+            known = f"must be one of {', '.join(names.split())}" if names else "none is free"
+            refuse("pivots", f"{name!r}; {known}")
         x, y = rows([at], f"pivots.{name}", ["m", "m"], "(0, 0)")[0]
         found[name] = complex(x, y)
     if len(found) == 2 and len(set(found.values())) == 1:
