@@ -258,8 +258,7 @@ impl<'m, S: Real> Sources<'m, S> {
     /// the multipliers begin, `rows` are the rows on which efforts depend, and `force` is a large force of the state.
     ///
     /// # Errors
-    /// If no solution follows continuously from the one without these forces, the row among `rows` whose multiplier has
-    /// grown most.
+    /// If no solution follows from the one without these forces, the row of `rows` whose multiplier has grown most.
     pub fn add(
         &self,
         (rows, first, force): (&[usize], usize, f64),
@@ -278,11 +277,7 @@ impl<'m, S: Real> Sources<'m, S> {
         }
         let grown = |row: &usize| largest(std::iter::once(solution[first + row]));
         let most = rows.iter().copied().max_by(|a, b| grown(a).total_cmp(&grown(b)));
-        if found {
-            Ok(())
-        } else {
-            Err(most.unwrap_or_default())
-        }
+        found.then_some(()).ok_or(most.unwrap_or_default())
     }
 }
 
