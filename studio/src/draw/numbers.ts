@@ -61,7 +61,7 @@ export function withUnit(value: number, unit: string): string {
 
 /** A round quantity, such as "10 kN". */
 export function roundQuantity(value: number, unit: string): string {
-  const { factor, unit: written } = scaled(value * 1.0000001, unit);
+  const { factor, unit: written } = scaled(value * 1.0000001, readable(unit));
   return `${Number((value / factor).toPrecision(3))} ${written}`;
 }
 

@@ -120,7 +120,7 @@ function besideUnit(text, unit) {
   return unit === "°" ? `${text}°` : `${text} ${unit}`.trim();
 }
 function roundQuantity(value, unit) {
-  const { factor, unit: written } = scaled(value * 1.0000001, unit);
+  const { factor, unit: written } = scaled(value * 1.0000001, readable(unit));
   return `${Number((value / factor).toPrecision(3))} ${written}`;
 }
 function significant(value, digits = 4) {
