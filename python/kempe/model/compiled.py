@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -233,8 +234,12 @@ class CompiledModel:
 
     @property
     def shown_bodies(self) -> Mapping[str, BodyInfo]:
-        """The moving bodies, each beam as one."""
-        return MappingProxyType({k: b for k, b in self.bodies.items() if b.is_shown})
+        """The moving bodies, each beam as one with its whole mass."""
+        whole = dict.fromkeys((name.split(".")[0] for name in self.bodies), 0.0)
+        for name, info in self.bodies.items():
+            whole[name.split(".")[0]] += info.mass
+        shown = {k: replace(b, mass=whole[k]) for k, b in self.bodies.items() if b.is_shown}
+        return MappingProxyType(shown)
 
     @property
     def named_bodies(self) -> Mapping[str, BodyInfo]:

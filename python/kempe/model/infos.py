@@ -73,6 +73,11 @@ class BodyInfo:
         return self.type != "node"
 
     @property
+    def has_inertia(self) -> bool:
+        """Whether it has one moment of inertia: a point and a beam that bends have none."""
+        return self.turns and self.type != "beam"
+
+    @property
     def is_inner(self) -> bool:
         """Whether it is a node of a beam without a name in the file."""
         return ".#" in self.name
