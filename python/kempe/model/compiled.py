@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -27,6 +26,7 @@ from kempe.model.infos import (
     constraint,
     force,
     vector,
+    whole,
 )
 from kempe.model.lookup_tables import TableInfo
 from kempe.model.measure_infos import MeasureInfo, measure_infos
@@ -235,11 +235,7 @@ class CompiledModel:
     @property
     def shown_bodies(self) -> Mapping[str, BodyInfo]:
         """The moving bodies, each beam as one with its whole mass."""
-        whole = dict.fromkeys((name.split(".")[0] for name in self.bodies), 0.0)
-        for name, info in self.bodies.items():
-            whole[name.split(".")[0]] += info.mass
-        shown = {k: replace(b, mass=whole[k]) for k, b in self.bodies.items() if b.is_shown}
-        return MappingProxyType(shown)
+        return MappingProxyType(whole(self.bodies.values()))
 
     @property
     def named_bodies(self) -> Mapping[str, BodyInfo]:
