@@ -15,6 +15,8 @@ from kempe.model.values import Number
 
 #: Readers of formats in Python.
 _READERS = {"mjcf": read_mjcf}
+#: Endings that `kempe convert` writes by other functions.
+_OTHERS = (".asmt", ".dxf", ".fmu", ".xml")
 
 
 @explained
@@ -84,7 +86,7 @@ def convert(
     case = load(path, partial=partial, form=form)
     ending = f".{out}" if out else files.checked_path(to, "write").suffix.lower()
     if ending not in FORMATS:
-        known = ", ".join(name.removeprefix(".") for name in FORMATS)
+        known = ", ".join(name.removeprefix(".") for name in (*FORMATS, *_OTHERS))
         raise FileError(f"cannot write {to}: its format must be one of {known}", name=str(to))
     case.save(to, form=FORMATS[ending])
     return case.unread

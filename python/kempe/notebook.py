@@ -55,7 +55,7 @@ def of_model(model: Model) -> str:
                 body.name,
                 body.type,
                 f"{body.mass:.6g}",
-                f"{body.inertia:.6g}",
+                f"{body.inertia:.6g}" if body.has_inertia else "–",
             )
             for body in model.compile().shown_bodies.values()
         ]

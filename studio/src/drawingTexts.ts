@@ -84,7 +84,8 @@ export const place = {
   addCurve: (body: string) => `Add a curve to ${body}`,
   held: (owner: string) =>
     `${owner} cannot be driven here: the joints and drivers leave it no freedom. Click another body or joint.`,
-  added: (label: string, name: string) => `${label} “${name}” added.`,
+  added: (label: string, name: string, pin?: string) =>
+    `${label} “${name}” added${pin ? ` in place of “${pin}”` : ""}.`,
   incomplete: (label: string, name: string, problem: string) => `${label} “${name}” added. Problem: ${problem}`,
 } as const;
 

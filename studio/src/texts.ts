@@ -180,7 +180,7 @@ export const texts = {
       `${pins}: ${kind}${turning ? `; turns fully: ${turning}` : ""}`,
   },
   live: {
-    energies: { kinetic: "Kinetic", potential: "Potential", dissipated: "Dissipated", work: "Work of drivers" },
+    energies: { kinetic: "Kinetic", potential: "Potential", dissipated: "Dissipated", work: "Supplied work" },
     step: "One step (1/60 s)",
     restart: "Back to the start",
     hint: "Pull at a body with the mouse, or at the selected one with the arrow keys.",

@@ -39,7 +39,7 @@ def test_units_of_axes_are_those_of_the_figures(numbers: Any, unit: str) -> None
         (1395.5, "N", "1396 N"),
         (2512.0, "N", "2.51 kN"),
         (0.0123, "m", "12.3 mm"),
-        (123456.0, "m/s²", "123 10³ m/s²"),
+        (123456.0, "m/s²", "123·10³ m/s²"),
     ],
 )
 def test_quantities(numbers: Any, value: float, unit: str, text: str) -> None:

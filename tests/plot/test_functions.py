@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 from kempe import plot
 from kempe.model.compiled import ACCELERATIONS, COORDINATES, RATES
+from kempe.plot.equilibrium import rest_pages
 from matplotlib.axes import Axes
+from plot.conftest import ROOT
 from plot.paintings import links
 
 Draw = Callable[..., Axes]
@@ -313,3 +315,14 @@ def test_the_parameter_of_a_path_has_its_unit() -> None:
         axes = plot.path(found, "rod.angle")
     assert axes.get_xlabel() == "mass / g"
     assert axes.lines[0].get_xdata()[-1] == pytest.approx(3000)
+
+
+def test_a_path_of_a_beam_shows_bodies_of_the_file() -> None:
+    case = kp.load(ROOT / "examples" / "leaf_spring_guide.toml")
+    start = case.start()
+    found = kp.equilibrium(start.model, start, over="width", range=(0.02, 0.021))
+    assert any(".#" in name for name in found.coordinates)
+    (figure,) = (page.draw() for page in rest_pages(found, 1) if page.name == "path")
+    labels = [axes.get_ylabel() for axes in figure.axes]
+    assert labels
+    assert not any("#" in label for label in labels)

@@ -22,6 +22,8 @@ from plot.conftest import ROOT
         ("N·m", 5e5, "F / kN·m"),
         ("N·m", 3e-6, "F / µN·m"),
         ("J", 4e6, "F / MJ"),
+        ("Pa", 8e7, "F / MPa"),
+        ("W", 12e3, "F / kW"),
         ("m", 0.01, "F / mm"),
         ("m", 0.5, "F / m"),
         ("m", 1e-12, "F / m"),
@@ -41,6 +43,12 @@ def test_a_unit_keeps_the_numbers_short(unit: str, peak: float, label: str) -> N
     assert found.axis("F") == label
     least = 0.1 if unit == "1" else 0.2
     assert peak < 1e-9 or least <= peak / found.divisor <= 2000.0
+
+
+def test_a_power_of_ten_is_a_factor_of_the_number() -> None:
+    assert scale("m/s²", 5e3).written(4220) == "4.22·10³ m/s²"
+    assert scale("1", 1e-5).written(5e-6) == "5·10⁻⁶"
+    assert scale("N", 1e3).written(500) == "500 N"
 
 
 def test_a_text_lies_on_no_line_and_no_other_text() -> None:

@@ -241,3 +241,10 @@ def test_beams_with_too_few_elements_are_named(size: float, stiffness: float) ->
             exact, told = tip(load, advised)
             assert not told
             assert 1e-4 < np.abs(place - exact).max() < 1e-2
+
+
+def test_a_run_that_ends_early_says_what_a_stiff_beam_needs() -> None:
+    m = clamped()
+    m.force("load", "rod.B", force=(0, -1))
+    with pytest.raises(kp.IntegrationError, match="give the beams damping, shear = false"):
+        kp.dynamics(m, kp.assemble(m), t_end=1, max_steps=5)

@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import kempe as kp
 import numpy as np
@@ -108,6 +109,23 @@ def test_bodies_that_are_locked_or_loose() -> None:
     assert found.degrees_of_freedom == 3
     assert "cannot move: left, right" in str(found)
     assert "not connected with ground: bird" in str(found)
+
+
+def test_a_beam_is_one_body_where_bodies_are_locked_or_loose() -> None:
+    m = kp.Model("beams")
+    m.ground.points(O=(0, 0))
+    blade: dict[str, Any] = {"length": 1, "EA": 1e3, "EI": 1, "GA": 1e3, "mass_per_length": 0.2}
+    m.beam("held", ends=("A", "B"), **blade)
+    m.beam("free", ends=("A", "B"), **blade)
+    m.weld("clamp", "ground.O", "held.A")
+    m.body("tip", mass=1, inertia=1, points={"B": (0, 0)})
+    m.weld("end", "held.B", "tip.B")
+    found = kp.mobility(m, kp.assemble(m))
+    assert found.locked == ()
+    assert found.loose == ("free",)
+    shown = m.compile().shown_bodies
+    assert [info.mass for info in shown.values()] == pytest.approx([0.2, 0.2, 1])
+    assert [info.has_inertia for info in shown.values()] == [False, False, True]
 
 
 def test_on_the_command_line(

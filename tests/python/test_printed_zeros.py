@@ -41,3 +41,17 @@ def test_small_values_stay(size: float) -> None:
     _, rows = kp.State(start.compiled, 0.0, q, start.v).table()
     assert float(rows[2][1]) == pytest.approx(1e-9 * size, rel=1e-5)
     assert float(rows[2][3]) == pytest.approx(np.degrees(1e-9), rel=1e-5)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_a_force_along_its_line_has_no_torque(size: float) -> None:
+    m = kp.Model("boom", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0), F=(0.3 * size, 0))
+    m.body("boom", mass=1e3, inertia=1, points={"O": (-0.8 * size, 0), "H": (0.2 * size, 0)})
+    m.revolute("O", "ground.O", "boom.O")
+    m.distance("cylinder", "ground.F", "boom.H", length=f"{size}*(0.75 + 0.03*t)")
+    start = kp.assemble(m, guess={"boom.angle": "20 deg"})
+    rows = kp.inverse_dynamics(m, start, t_end=8, output_step=0.1)
+    _, cylinder = kp.report.summary(rows)["peaks"]["reactions"]
+    assert cylinder["force"] > 1e4
+    assert (cylinder["torque"], cylinder["torque_at"]) == (0, 0)

@@ -352,3 +352,14 @@ def test_every_mistake_has_a_remedy() -> None:
     assert set(FILES) == set(EDITS)
     assert set(SAME) == set(ANALYSES)
     assert {" ".join(c[0]) for c in COMMANDS} == {*WORDS_OF, OUTSIDE}
+
+
+def test_commands_name_their_own_options_and_formats(tmp_path: Path) -> None:
+    (tmp_path / "case.toml").write_text(FOUR_BAR)
+    done = kempe("sweep", "case.toml", "--over", "k=1:2:3", cwd=tmp_path)
+    assert "give --measure on the command line" in done.stderr
+    done = kempe("convert", "case.toml", "case.stp", cwd=tmp_path)
+    assert "must be one of toml, json, asmt, dxf, fmu, xml" in done.stderr
+    for ending in ("asmt", "dxf", "fmu", "xml"):
+        done = kempe("convert", "case.toml", f"case.{ending}", cwd=tmp_path)
+        assert "must be one of" not in done.stderr

@@ -60,6 +60,14 @@ def test_arrows_have_the_forces_and_velocities_of_the_run(one: Studio, tmp_path:
     assert texts(one, tmp_path, len(expected)) == sorted(expected)
 
 
+def test_the_scale_has_the_unit_of_the_arrows(one: Studio, tmp_path: Path) -> None:
+    one.load(CASE.read_text(encoding="utf-8"))
+    one.mode("read")
+    show(one, 0.4, "Accelerations")
+    units = set(re.findall(r">[\d.]+ ([^<]*m/s[^<\s]*)[^<]*</text>", drawing(one, tmp_path)))
+    assert units - {"m/s"} == {"m/s²"}
+
+
 def test_the_length_of_an_arrow_is_its_share_of_the_largest(one: Studio, tmp_path: Path) -> None:
     one.load(CASE.read_text(encoding="utf-8"))
     one.mode("read")

@@ -86,6 +86,8 @@ def test_the_gallery_has_sixty_mechanisms_in_thirteen_families(gallery: Gallery)
     assert gallery.shown() == NAMES
     assert len(NAMES) >= 60
     assert len(FAMILIES) == 13
+    for page in ("README.md", "docs/studio.md"):
+        assert f" shows {len(NAMES)} mechanisms" in (ROOT / page).read_text("utf-8"), page
     # a card out of view has texts, but no lines
     name, sentence = (
         gallery.card("hart").locator(part).text_content() for part in ("strong", "span")

@@ -132,7 +132,7 @@ def test_a_relation_of_clicked_coordinates_holds_where_they_are(one: Studio, too
             "point_on_curve",
             (0.0, -0.3),
             "ground",
-            r"\{ line = \[\[0\.\d, 0\], \[-0\.\d, 0\]\] \}",
+            r"\{ line = \[\[0\.\d, -0\.3\], \[-0\.\d, -0\.3\]\] \}",
         ),
     ],
 )

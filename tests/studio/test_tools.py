@@ -205,3 +205,61 @@ def test_a_click_on_a_wheel_takes_its_pivot_as_centre(one: Studio) -> None:
     belt = one.tree()["joints"]["belt1"]
     assert (belt["i"], belt["j"]) == ("left.A", "right.B")
     one.page.keyboard.press("Escape")
+
+
+def test_a_weld_takes_the_place_of_a_pin_and_keeps_the_drawn_angle(one: Studio) -> None:
+    new(one)
+    one.tool("ground")
+    one.click(-0.5, 0.2)
+    one.tool("bar")
+    one.click(-0.5, 0.2)
+    one.click(0.3, 0.6)
+    one.tool("weld")
+    one.page.mouse.move(*one.screen(-0.5, 0.2))
+    one.settle()
+    one.click(-0.5, 0.2)
+    assert "its second end" in note(one)  # also where the mouse rests
+    one.click(-0.5, 0.2)
+    assert "in place of “A”" in one.message()
+    (weld,) = one.tree()["joints"].values()
+    assert weld["angle"] == pytest.approx(math.atan2(0.4, 0.8), abs=1e-8)
+    assert one.quantity("bar1.B.y") == pytest.approx(0.6, abs=1e-6)
+    one.page.locator("#undo").click()
+    one.settle()
+    assert list(one.tree()["joints"]) == ["A"]
+
+
+def test_a_floor_is_where_it_was_clicked_and_a_cam_on_its_pin_is_the_cam(one: Studio) -> None:
+    new(one)
+    one.tool("ground")
+    one.click(-0.8, 0.0)
+    one.tool("body")
+    one.click(0.2, 0.3)
+    one.click(0.4, 0.3)
+    one.page.keyboard.press("Enter")
+    one.tool("contact")
+    one.click(0.2, 0.3)
+    one.click(0.3, -0.3)
+    one.page.locator("#message .link").filter(has_text="Add a curve to ground").click()
+    one.settle()
+    right, left = one.tree()["bodies"]["ground"]["curves"]["curve1"]["line"]
+    assert right[1] == left[1] == pytest.approx(-0.3, abs=1e-9)
+    assert left[0] < -0.8
+    assert right[0] > 0.3
+    one.page.keyboard.press("Escape")
+    one.load(CASE)
+    one.tool("roller_on_curve")
+    one.click(0.4, -0.4)
+    one.click(-0.4, -0.2)  # the pin of the left body on the ground
+    offers = one.page.locator("#message .link").all_inner_texts()
+    assert offers == ["Add a curve to left"]
+
+
+def test_a_belt_is_not_elastic(one: Studio) -> None:
+    one.load(CASE)
+    one.tool("belt")
+    one.click(-0.4, -0.2)
+    one.click(0.45, -0.2)
+    assert set(one.tree()["joints"]["belt1"]) <= {"type", "i", "j", "radii", "offset"}
+    assert one.page.locator("#freedom").inner_text() == "1 degree of freedom"
+    one.page.keyboard.press("Escape")

@@ -42,7 +42,7 @@ pub(super) fn read(
         }
         "analysis" => analysis(report, value, root),
         key if keys.contains(&key) => own(report, key, value),
-        _ => report.unknown("key", key, &format!(" of a {name}"), keys),
+        _ => report.unknown("key", key, &format!(" of {name}"), keys),
     });
     report.missing(table, required);
     table.values()

@@ -27,7 +27,13 @@ def show_mechanism(console: Console, state: State) -> None:
     console.print(Text(model.title or "untitled", style="bold"))
     heading(console, "Bodies")
     bodies = [
-        (str(b.shown_number), b.name, b.type, figure(b.mass), figure(b.inertia))
+        (
+            str(b.shown_number),
+            b.name,
+            b.type,
+            figure(b.mass),
+            figure(b.inertia) if b.has_inertia else "–",
+        )
         for b in model.compile().shown_bodies.values()
     ]
     table(console, ("", "name", "type", "mass / kg", "inertia / kg·m²"), bodies, left=3)

@@ -19,6 +19,8 @@ _CUSTOM = {
     "N": (9, 6, 3, 0, -3, -6),
     "N·m": (9, 6, 3, 0, -3, -6),
     "J": (9, 6, 3, 0, -3, -6),
+    "W": (9, 6, 3, 0, -3, -6),
+    "Pa": (9, 6, 3, 0),
 }
 #: Angles are in degrees, as in tables, with a power of ten only outside of this range.
 _DEGREE, _WRITTEN = math.pi / 180.0, (0.2, 1e6)
@@ -47,7 +49,8 @@ class Scale:
         number = f"{value / self.divisor:.4g}".replace("-", "\N{MINUS SIGN}")
         if self.unit == "1":
             return number
-        return f"{number}{'' if self.unit == '°' else ' '}{self.unit}"
+        gap = "" if self.unit == "°" else "·" if self.unit.startswith("10") else " "
+        return f"{number}{gap}{self.unit}"
 
     def axis(self, symbol: str) -> str:
         """The label of an axis, such as ``F / kN``."""

@@ -86,8 +86,9 @@ def _parameters(subject: Subject) -> Table:
 def _bodies(subject: Subject) -> Table:
     rows: list[tuple[Cell, ...]] = []
     for name, info in subject.model.shown_bodies.items():
-        inertia = number(info.inertia, "kg*m^2") if info.turns else "–"
-        center = (number(part, "m") for part in info.center)
+        inertia = number(info.inertia, "kg*m^2") if info.has_inertia else "–"
+        is_rigid = info.has_inertia or not info.turns
+        center = (number(part, "m") if is_rigid else "–" for part in info.center)
         rows.append(
             (str(info.shown_number), name, info.type, number(info.mass, "kg"), inertia, *center)
         )

@@ -26,6 +26,7 @@ from kempe.model.infos import (
     constraint,
     force,
     vector,
+    whole,
 )
 from kempe.model.lookup_tables import TableInfo
 from kempe.model.measure_infos import MeasureInfo, measure_infos
@@ -233,8 +234,8 @@ class CompiledModel:
 
     @property
     def shown_bodies(self) -> Mapping[str, BodyInfo]:
-        """The moving bodies, each beam as one."""
-        return MappingProxyType({k: b for k, b in self.bodies.items() if b.is_shown})
+        """The moving bodies, each beam as one with its whole mass."""
+        return MappingProxyType(whole(self.bodies.values()))
 
     @property
     def named_bodies(self) -> Mapping[str, BodyInfo]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -71,6 +71,11 @@ class BodyInfo:
     def is_shown(self) -> bool:
         """Whether lists and figures show it: a node inside of a beam is part of the beam."""
         return self.type != "node"
+
+    @property
+    def has_inertia(self) -> bool:
+        """Whether it has one moment of inertia: a point and a beam that bends have none."""
+        return self.turns and self.type != "beam"
 
     @property
     def is_inner(self) -> bool:
@@ -222,6 +227,18 @@ def bodies(entries: Iterable[dict[str, Any]]) -> Iterator[BodyInfo]:
         is_shown = number > 0 and entry["type"] != "node"
         shown += is_shown
         yield _body(number, shown if is_shown else 0, entry)
+
+
+def whole(infos: Iterable[BodyInfo]) -> dict[str, BodyInfo]:
+    """Bodies by name, each beam as one with its whole mass."""
+    masses: dict[str, float] = {}
+    shown = {}
+    for info in infos:
+        body = info.name.split(".")[0]
+        masses[body] = masses.get(body, 0.0) + info.mass
+        if info.is_shown:
+            shown[info.name] = info
+    return {name: replace(info, mass=masses[name]) for name, info in shown.items()}
 
 
 def _body(number: int, shown_number: int, entry: dict[str, Any]) -> BodyInfo:

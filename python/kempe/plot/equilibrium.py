@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from kempe.base.arrays import Floats
 from kempe.base.display_units import display
 from kempe.draw.scene import scene
-from kempe.draw.units import Scale, scale
+from kempe.draw.units import NOISE, Scale, scale
 from kempe.model.measure_infos import parameter_unit
 from kempe.plot import style
 from kempe.plot.page import Page
@@ -113,11 +113,25 @@ def _rest_figure(result: EquilibriumResult) -> Figure:
 
 
 def _path_figure(result: EquilibriumResult) -> Figure:
-    names = result.coordinates[:_MOST]
+    names = _told(result)[:_MOST]
     made, panels = _panels(len(names))
     for axes, name in zip(panels, names, strict=True):
         path(result, name, ax=axes)
     return _finished(made, panels, result)
+
+
+def _told(result: EquilibriumResult) -> Sequence[str]:
+    """The independent coordinates with names of the file; without any, the coordinates that change.
+
+    Those of nodes inside of beams have no meaning in a figure.
+    """
+    bodies = result.states[0].compiled.named_bodies
+    independent = [name for name in result.coordinates if name.rpartition(".")[0] in bodies]
+    if independent:
+        return independent
+    own = [f"{name}.{part}" for name, info in bodies.items() for part in info.quantities]
+    changes = [name for name in own if np.ptp(result.quantity(name)) > NOISE]
+    return changes or result.coordinates
 
 
 def _effort_figure(result: EquilibriumResult) -> Figure:

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
 #: Angles below this are rounding errors, rad.
 _NO_ANGLE = 1e-9
+#: Part of the largest force times the size below which a torque is a rounding error: some hundred
+#: units in the last place, as after a solution of the equations.
+_NO_TORQUE = 1e-13
 #: Largest number of coordinates of which the free ones are found.
 _MOST = 300
 #: Part of the largest singular value below which an equation depends on others.
@@ -105,14 +108,16 @@ def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
     read = partial(_force, name, on)
     force = sampled.peak(read)
     torque = sampled.peak(lambda motion: motion.constraint(name).torque(on=on))
+    arm = size_of(sampled.solution.initial)
+    has_torque = abs(torque.value) > _NO_TORQUE * abs(force.value) * arm
     choice = sampled.solution.constraint(name).choice
     return {
         "joint": name,
         "on": on,
         "force": force.value,
         "force_at": force.t,
-        "torque": torque.value,
-        "torque_at": torque.t,
+        "torque": torque.value if has_torque else 0.0,
+        "torque_at": torque.t if has_torque else float(sampled.solution.t[0]),
         "unbounded_at": list(unbounded_at(sampled.solution, name)),
         "unique": not choice,
         "choice": choice,

@@ -52,7 +52,7 @@ def complete(section: str, asked: dict[str, Any]) -> dict[str, Any]:
     """
     for key in ("variables", "measures"):
         if not asked[key]:
-            raise ModelError(f"{section}: no {key}", hint=f"pass {key}=, or declare [{section}]")
+            raise ModelError(f"{section}: no {key}", hint=_remedy(section, key))
     return asked
 
 
@@ -118,3 +118,9 @@ def located(case: Case, section: str, message: str) -> str:
         return text
     file, line, column = found
     return f"{file}: {text} (line {line}, column {column})"
+
+
+def _remedy(section: str, key: str) -> str:
+    """Where variables or measures are given: in Python, on the command line or in the file."""
+    option = {"variables": "--over", "measures": "--measure"}[key]
+    return f"pass {key}=, give {option} on the command line, or declare [{section}]"

@@ -10,6 +10,8 @@ const WITH_PREFIX: Record<string, number[]> = {
   N: [9, 6, 3, 0, -3, -6],
   N·m: [9, 6, 3, 0, -3, -6],
   J: [9, 6, 3, 0, -3, -6],
+  W: [9, 6, 3, 0, -3, -6],
+  Pa: [9, 6, 3, 0],
 };
 const SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
@@ -44,7 +46,7 @@ export function quantity(value: number, unit: string, digits = 3): string {
   const { factor, unit: written } = scaled(Math.abs(value), readable(unit));
   const number = value / factor;
   const text = Math.abs(number) < 10 ** digits ? number.toPrecision(digits) : number.toFixed(0);
-  return `${minus(value === 0 ? "0" : text)} ${written}`;
+  return minus(value === 0 ? "0" : text) + beside(written);
 }
 
 /** A number and its unit; the sign of degrees follows without a space. */
@@ -61,8 +63,13 @@ export function withUnit(value: number, unit: string): string {
 
 /** A round quantity, such as "10 kN". */
 export function roundQuantity(value: number, unit: string): string {
-  const { factor, unit: written } = scaled(value * 1.0000001, unit);
-  return `${Number((value / factor).toPrecision(3))} ${written}`;
+  const { factor, unit: written } = scaled(value * 1.0000001, readable(unit));
+  return Number((value / factor).toPrecision(3)) + beside(written);
+}
+
+/** A unit behind a number; a power of ten is a factor. */
+function beside(unit: string): string {
+  return `${unit.startsWith("10") ? "·" : " "}${unit}`;
 }
 
 /** A value with `digits` significant digits, such as 12.34 and 1.234·10⁻⁷. */

@@ -168,10 +168,10 @@ export function takesPoints(name: string): boolean {
 }
 
 /** Add a curve to a body; returns its name, or null if that failed. */
-export async function addCurve(name: string): Promise<string | null> {
+export async function addCurve(name: string, at?: Point): Promise<string | null> {
   const body = mechanism.value?.bodies.find((one) => one.name === name);
   if (!body) return null;
-  const added = curveFor(tree.value, body, gridStep(view));
+  const added = curveFor(tree.value, body, gridStep(view), at);
   return (await change([added.change])) ? added.name : null;
 }
 

@@ -8,25 +8,33 @@ export interface WithCurve {
   name: string;
 }
 
-/** A circle around the middle of a body through its farthest point; on the ground, a line whose body is below it. */
-export function curveFor(tree: Tree | null, { name: body, ground, points, center }: Body, step: number): WithCurve {
+/**
+ * A circle around the middle of a body through its farthest point; on the ground, a line whose body is below it, at the
+ * height of the clicked place.
+ */
+export function curveFor(
+  tree: Tree | null,
+  { name: body, ground, points, center }: Body,
+  step: number,
+  at?: Point,
+): WithCurve {
   const found = entry(tree, "bodies", body)?.curves;
   const taken = isTable(found) ? Object.keys(found) : [];
   let k = 1;
   while (taken.includes(`curve${k}`)) k += 1;
   const places = Object.values(points);
-  const value = ground ? { line: lineUnder(places, step) } : { circle: circleAround(places, center, step) };
+  const value = ground ? { line: lineUnder(places, step, at) } : { circle: circleAround(places, center, step) };
   return { change: { path: ["bodies", body, "curves", `curve${k}`], value }, name: `curve${k}` };
 }
 
 /** From right to left, so that other bodies are above the line. */
-function lineUnder(places: readonly Point[], step: number): Point[] {
-  const x = places.map((at) => at[0]);
-  const y = places.length ? Math.min(...places.map((at) => at[1])) : 0;
-  const [left, right] = x.length ? [Math.min(...x), Math.max(...x)] : [0, 0];
+function lineUnder(places: readonly Point[], step: number, clicked?: Point): Point[] {
+  const all = clicked ? [...places, clicked] : places.length ? places : [[0, 0]];
+  const x = all.map((at) => at[0]!);
+  const y = tidy(clicked ? clicked[1] : Math.min(...all.map((at) => at[1]!)));
   return [
-    [tidy(right + step), tidy(y)],
-    [tidy(left - step), tidy(y)],
+    [tidy(Math.max(...x) + step), y],
+    [tidy(Math.min(...x) - step), y],
   ];
 }
 

@@ -75,12 +75,15 @@ export function wheelShare(required: boolean): number {
 const USEFUL: Record<string, (scale: Scale, field: Field) => Value | undefined> = {
   free_length: ({ length }) => digits(length, 4),
   free_angle: ({ turn }) => digits(turn, 4),
+  angle: ({ turn }) => digits(turn, 9) || undefined, // of a weld
   stiffness: (scale, { unit, shape }) =>
     unit === "any"
       ? digits(scale.weight / (scale.size / 200) ** 1.5, 1) // a contact; the weight presses in by a 200th of the size
       : shape === "triple"
         ? unit.split(",").map((one) => digits(10 * stiffness(scale, one), 1))
-        : digits(stiffness(scale, unit), 1),
+        : shape === "law"
+          ? digits(stiffness(scale, unit), 1)
+          : undefined, // a belt is not elastic
   damping: (scale, { unit, shape }) =>
     shape === "law" || shape === "number"
       ? unit.startsWith("N")

@@ -4,7 +4,7 @@ import { design } from "../design/handler";
 import { scaling, shifting } from "../store/backdrop";
 import { note } from "../store/note";
 import { goHome, report, showPresent } from "../store/session";
-import { loads, type Mode, mode, panel, tool } from "../store/state";
+import { loads, type Mode, message, mode, panel, tool } from "../store/state";
 import { still } from "../store/still";
 import { edit } from "./edit";
 import type { Handler } from "./handler";
@@ -27,6 +27,7 @@ export function enter(next: Mode): void {
   const before = mode.value;
   leave(before);
   mode.value = next;
+  if (message.value?.kind === "done") message.value = null;
   if (next === "edit" || next === "design") void goHome();
   panel.value = next === "read" ? "results" : "properties";
   // With reduced motion, *Live* waits for Play.

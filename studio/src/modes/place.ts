@@ -13,6 +13,7 @@ import { addCurve, swap, takesCurves, takesPoints } from "../edit/commands";
 import { addMachine, isMachine } from "../edit/composing";
 import type { Motion } from "../edit/driving";
 import { addElement, type Scale, wheelShare } from "../edit/element";
+import { removed } from "../edit/removing";
 import { hasLine, hasSides } from "../edit/swapping";
 import { distance, type Point } from "../plane/points";
 import { type Snapped, snapped } from "../plane/snap";
@@ -40,7 +41,7 @@ import { texts } from "../texts";
 import { alikeOf, coordinateOf } from "./coordinate";
 import type { Handler, Spot } from "./handler";
 import { lengthNow, readLength } from "./length";
-import { curveUnder, isJoined, jointUnder, ownerUnder, pivotOf, type Under, under } from "./refer";
+import { curveUnder, isJoined, jointUnder, ownerUnder, pinBetween, pivotOf, type Under, under } from "./refer";
 import { bodyUnder, links, points, targets } from "./seen";
 
 let places: Place[] = [];
@@ -107,6 +108,13 @@ function prompt(active: Tool): string {
   return places.length ? texts.place.next(label, placing) : texts.place.first(label, placing);
 }
 
+/** Say what the next click chooses, below the drawing and beside the pointer. */
+function ask(active: Tool): void {
+  const text = prompt(active);
+  announce("info", text);
+  if (note.value) note.value = { ...note.value, text };
+}
+
 /** The line that a click gives to the body under the pointer, for an element with a slot or a rack. */
 function guideAt({ type }: Tool, spot: Spot, at: Point): Point[] {
   if (!type.fields.some(({ name }) => name === "axis" || name === "axes")) return [];
@@ -160,7 +168,7 @@ async function clickPlace(active: Tool, spot: Spot): Promise<void> {
   below.push(carries ? bodyUnder(spot, new Set(hits.map(({ body }) => body.name))) : null);
   const enough = active.placing === "many" ? 8 : active.placing === "one" || active.placing === "fixed" ? 1 : 2;
   if (places.length >= enough) await make(active);
-  else announce("info", prompt(active));
+  else ask(active);
 }
 
 /** Make the body from the places that are chosen. After a typed length, the next place is toward the pointer. */
@@ -222,14 +230,14 @@ function tell(spot: Spot, text: string, more: Parameters<typeof announce>[2] = {
 /** Show which reference is needed. If it is a curve, offer to add one. */
 function refuse(active: Tool, field: Field, spot: Spot): void {
   const { references, type } = active;
-  const found = under(spot, new Set());
+  const found = under(spot, taken(), field.shape === "curve");
   const held = active.group === "drivers" && field.shape === "coordinate" ? ownerUnder(found) : null;
   const wanted = held
     ? texts.place.held(held)
     : texts.place.wanted(String(field.shape), type.name, references.indexOf(field), references.length);
   const body = found.body?.name ?? GROUND;
   const add = async () => {
-    const curve = await addCurve(body);
+    const curve = await addCurve(body, snapHere(spot).at);
     if (curve === null) return;
     chosen[field.name] = `${body}.${curve}`;
     await goOn(active);
@@ -241,15 +249,22 @@ function refuse(active: Tool, field: Field, spot: Spot): void {
 /** Show which reference is next, or make the element. */
 async function goOn(active: Tool): Promise<void> {
   const next = active.references.find(({ name }) => !(name in chosen));
-  if (next) announce("info", prompt(active));
+  if (next) ask(active);
   else await complete(active);
 }
 
 async function complete(active: Tool): Promise<void> {
   const added = addElement(active, chosen, scaleNow(active), tree.value);
-  const all = { ...added, changes: [...changes, ...added.changes] };
+  const pin = takesPin(active) && pinBetween(chosen.i, chosen.j);
+  const gone = pin ? removed(tree.value, "joints", pin) : [];
+  const all = { ...added, changes: [...gone, ...changes, ...added.changes] };
   restart(active.references.length ? active : null);
-  await apply(active, all);
+  await apply(active, all, pin || undefined);
+}
+
+/** Whether a joint takes the place of a pin: it adds to its equations or weakens them. */
+function takesPin({ group, type }: Tool): boolean {
+  return group === "joints" && type.fields.some(({ name }) => ["angle", "axis", "clearance"].includes(name));
 }
 
 /** The measures of the drawing for initial values. */
@@ -277,7 +292,7 @@ function scaleNow({ type }: Tool): Scale {
   };
 }
 
-async function apply(active: Tool, { changes: all, name }: Added): Promise<void> {
+async function apply(active: Tool, { changes: all, name }: Added, pin?: string): Promise<void> {
   if (!(await change(all))) return;
   selection.value = { group: active.group, name };
   if (active.placing !== "fixed" && panel.value !== "text") panel.value = "properties";
@@ -288,7 +303,7 @@ async function apply(active: Tool, { changes: all, name }: Added): Promise<void>
   else
     announce(
       "done",
-      texts.place.added(active.label, name),
+      texts.place.added(active.label, name, pin),
       hasSides(active.type) && hasLine(active.type) ? { action: swapAction(name) } : {},
     );
 }
@@ -309,12 +324,16 @@ function swapAction(name: string) {
   return { label: texts.place.swap, run: () => void swap("joints", name) };
 }
 
+/** The bodies of the references that are chosen. */
+function taken(): Set<string> {
+  return new Set(Object.values(chosen).map((one) => String(one).split(".")[0]!));
+}
+
 /** The reference under the pointer, in the notation of the file. */
 async function referenceOf(active: Tool, field: Field, spot: Spot): Promise<string | null> {
   const shape = String(field.shape);
-  const taken = new Set(Object.values(chosen).map((one) => String(one).split(".")[0]!));
   const wheel = field.doc.startsWith("Centre");
-  const found = under(spot, taken, wheel || active.references.length === 1);
+  const found = under(spot, taken(), wheel || shape === "curve" || active.references.length === 1);
   const pivot = wheel && found.body && !isJoined(found.fresh) ? pivotOf(found.body) : null;
   if (pivot) {
     const hit = points().find(({ body, point }) => body === found.body && point === pivot)!;
@@ -347,7 +366,7 @@ export function restart(next: Tool | null = tool.value): void {
   preview.value = note.value = refused = null;
   tool.value = next;
   if (!next) return;
-  announce("info", prompt(next));
+  ask(next);
   if (!next.placing && !next.references.length) void complete(next);
 }
 

@@ -25,15 +25,26 @@ export function under(spot: Spot, taken: ReadonlySet<string>, moves = false): Un
   return { spot, hits, fresh, body: fresh?.body ?? bodyUnder(spot, taken) ?? bodyUnder(spot) };
 }
 
+/** Whether the type of a joint is that of a pin. */
+function isPinned(type: unknown): boolean {
+  return catalogue.value.joints.some((one) => one.name === type && isPin(one));
+}
+
 /** Whether a pin holds a point at one of some points of the ground. */
 function isFixed(point: PointHit, hits: readonly PointHit[]): boolean {
   const name = ({ body, point: own }: PointHit) => `${body.name}.${own}`;
   const others = hits.filter(({ body }) => body.ground).map(name);
-  const pins = new Set(catalogue.value.joints.filter(isPin).map((type) => type.name));
   return Object.values(entries(tree.value, "joints")).some(({ type, i, j }) => {
     const ends = [String(i), String(j)];
-    return pins.has(String(type)) && ends.includes(name(point)) && ends.some((end) => others.includes(end));
+    return isPinned(type) && ends.includes(name(point)) && ends.some((end) => others.includes(end));
   });
+}
+
+/** The pin between two points, if there is one. */
+export function pinBetween(a: unknown, b: unknown): string | undefined {
+  return Object.entries(entries(tree.value, "joints")).find(
+    ([, { type, i, j }]) => isPinned(type) && ((i === a && j === b) || (i === b && j === a)),
+  )?.[0];
 }
 
 /** Whether a joint is at a point of a body. */
@@ -45,8 +56,7 @@ export function isJoined(hit: PointHit | undefined): boolean {
 
 /** The point about which a body turns: one that is pinned, to the ground if possible. */
 export function pivotOf({ name, points }: Body): string | null {
-  const pins = new Set(catalogue.value.joints.filter(isPin).map((type) => type.name));
-  const joints = Object.values(entries(tree.value, "joints")).filter(({ type }) => pins.has(String(type)));
+  const joints = Object.values(entries(tree.value, "joints")).filter(({ type }) => isPinned(type));
   const sides = joints.map(({ i, j }) => [String(i), String(j)]);
   const ground = mechanism.value?.bodies.find((body) => body.ground)?.name;
   const own = Object.keys(points).filter((point) => sides.some((pair) => pair.includes(`${name}.${point}`)));

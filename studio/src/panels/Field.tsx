@@ -37,7 +37,7 @@ export function Field({ field, path, value }: { field: FieldOf; path: Path; valu
         {field.name}
       </label>
       <Control id={id} field={field} path={path} value={value} />
-      <span class="unit">{readable(field.unit)}</span>
+      <span class="unit">{field.unit !== "any" && readable(field.unit)}</span>
       {own.map(({ path: at, message }) => (
         <p key={at} class="problem">
           {message}

@@ -4,7 +4,7 @@ use super::passing::freedoms;
 use crate::analyses::mobility::neighbour;
 use crate::elements::Group;
 use crate::math::Listed;
-use crate::model::{column_scales, Model};
+use crate::model::{beam_of, column_scales, Body, Model};
 use std::sync::Arc;
 
 /// Components of a motion below this fraction of the motion count as rest. Lengths are relative to the size of the
@@ -20,7 +20,19 @@ pub(super) fn locked(model: &Model, t: f64, q: &[f64]) -> Vec<String> {
     if let Some(there) = near.and_then(|near| resting(model, t, &near)) {
         locked.retain(|body| there.contains(body));
     }
-    locked.into_iter().map(|body| model.bodies[body].name.clone()).list()
+    let beams = first_ends(model);
+    let moves = |beam: &usize| (1..beams.len()).any(|k| beams[k] == *beam && !locked.contains(&k));
+    let whole = locked.iter().filter(|body| beams[**body] == **body && !moves(body));
+    whole.map(|body| model.bodies[*body].name.clone()).list()
+}
+
+/// Of each body itself, or the first end of the beam to which it belongs.
+fn first_ends(model: &Model) -> Vec<usize> {
+    let first = |(k, body): (usize, &Body<f64>)| match beam_of(&body.name) {
+        beam if beam == body.name => k,
+        beam => model.body(beam).map_or(k, |first| first.0),
+    };
+    model.bodies.iter().enumerate().map(first).list()
 }
 
 /// The bodies with zero velocity in every motion at a position.
@@ -40,15 +52,16 @@ fn released(model: &Model) -> Model {
     Model::new(&Arc::new(model.blueprint.keeping(&kept)), &model.parameters)
 }
 
-/// The bodies that no chain of joints connects to ground.
+/// The bodies that no chain of joints and beams connects to ground.
 pub(super) fn loose(model: &Model) -> Vec<String> {
+    let beams = first_ends(model);
     let mut held = vec![false; model.bodies.len()];
     held[0] = true;
     let joints = || model.constraints.iter().filter(|item| item.group == Group::Joints);
     loop {
         let reached: Vec<usize> = joints()
-            .filter(|item| item.bodies.iter().any(|body| held[body.0]))
-            .flat_map(|item| item.bodies.iter().map(|body| body.0))
+            .filter(|item| item.bodies.iter().any(|body| held[beams[body.0]]))
+            .flat_map(|item| item.bodies.iter().map(|body| beams[body.0]))
             .filter(|body| !held[*body])
             .list();
         if reached.is_empty() {
@@ -56,6 +69,6 @@ pub(super) fn loose(model: &Model) -> Vec<String> {
         }
         reached.into_iter().for_each(|body| held[body] = true);
     }
-    let loose = model.bodies.iter().zip(held).filter(|(_, held)| !held);
-    loose.map(|(body, _)| body.name.clone()).list()
+    let loose = (1..held.len()).filter(|k| beams[*k] == *k && !held[*k]);
+    loose.map(|k| model.bodies[k].name.clone()).list()
 }

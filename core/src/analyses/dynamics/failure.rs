@@ -10,7 +10,7 @@ use crate::elements::Equation;
 use crate::expression::TABLE_ENDS;
 use crate::integrate::Cause;
 use crate::math::{Listed, ShortArray};
-use crate::model::{size, Model, Switch};
+use crate::model::{is_inner, size, Model, Switch};
 use crate::solve::Breakdown;
 use std::fmt;
 
@@ -259,7 +259,12 @@ impl Failure {
             ),
             Cause::MaxSteps { steps } => (
                 format!("max_steps = {steps} steps ended at t = {t:.6} s"),
-                "raise max_steps, or loosen the tolerance",
+                if model.bodies.iter().any(|body| is_inner(&body.name)) {
+                    "give the beams damping, shear = false and inextensible = true; or raise max_steps, or loosen \
+                     the tolerance"
+                } else {
+                    "raise max_steps, or loosen the tolerance"
+                },
             ),
             Cause::TooManySteps { needed, step, most } => {
                 let needed =

@@ -88,7 +88,9 @@ var WITH_PREFIX = {
   "m/s²": [0, -3, -6],
   N: [9, 6, 3, 0, -3, -6],
   "N·m": [9, 6, 3, 0, -3, -6],
-  J: [9, 6, 3, 0, -3, -6]
+  J: [9, 6, 3, 0, -3, -6],
+  W: [9, 6, 3, 0, -3, -6],
+  Pa: [9, 6, 3, 0]
 };
 var SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 function readable(unit) {
@@ -114,14 +116,17 @@ function quantity(value, unit, digits = 3) {
   const { factor, unit: written } = scaled(Math.abs(value), readable(unit));
   const number = value / factor;
   const text = Math.abs(number) < 10 ** digits ? number.toPrecision(digits) : number.toFixed(0);
-  return `${minus(value === 0 ? "0" : text)} ${written}`;
+  return minus(value === 0 ? "0" : text) + beside(written);
 }
 function besideUnit(text, unit) {
   return unit === "°" ? `${text}°` : `${text} ${unit}`.trim();
 }
 function roundQuantity(value, unit) {
-  const { factor, unit: written } = scaled(value * 1.0000001, unit);
-  return `${Number((value / factor).toPrecision(3))} ${written}`;
+  const { factor, unit: written } = scaled(value * 1.0000001, readable(unit));
+  return Number((value / factor).toPrecision(3)) + beside(written);
+}
+function beside(unit) {
+  return `${unit.startsWith("10") ? "·" : " "}${unit}`;
 }
 function significant(value, digits = 4) {
   if (!Number.isFinite(value)) return "–";
@@ -1300,8 +1305,8 @@ function conditionOf(unit, condition) {
 
 // src/give/table.ts
 function csv(t, names, units, rows, first = { name: "t", unit: "s", condition: "" }) {
-  const beside = (unit) => [unit, conditionOf(unit, first.condition)].filter(Boolean).join(", ");
-  const columns = names.map((name, k) => `${name} [${beside(units[k])}]`);
+  const beside2 = (unit) => [unit, conditionOf(unit, first.condition)].filter(Boolean).join(", ");
+  const columns = names.map((name, k) => `${name} [${beside2(units[k])}]`);
   const head2 = [`${first.name} [${first.unit}]`, ...columns].map(cell);
   const number = (value) => Number.isFinite(value) ? String(value) : "nan";
   const lines = Array.from(t, (one, k) => [one, ...rows.map((row) => row[k])].map(number).join(","));
