@@ -1,11 +1,11 @@
 //! Failures of forward dynamics, in terms of the mechanism.
 
+use super::contact_failures::{contact_at, jammed};
 use super::law_fault::{undefined_law, LawFault};
 use super::law_jump::{LawJump, SMOOTH};
 use super::no_mass;
 use super::run_results::Run;
 use crate::analyses::mobility::dependent;
-use crate::analyses::rigid::is_rigid;
 use crate::elements::Equation;
 use crate::expression::TABLE_ENDS;
 use crate::integrate::Cause;
@@ -89,21 +89,6 @@ pub enum Reason {
 /// Mismatch of lengths, relative to the size, above which two motions past a change point are distinct.
 const MEET: f64 = 1e-8;
 
-/// The friction paradox of a joint, at these positions.
-fn jammed(t: f64, joint: &str, positions: &str) -> String {
-    format!(
-        "friction paradox (Painlevé) in joint {joint} at t = {t:.6} s: no reaction agrees with the friction that it \
-         causes, so that the mechanism jams ({positions}); reduce the coefficient of friction, or give the friction a \
-         constant load"
-    )
-}
-
-/// The contact that rests by a row.
-fn contact_at(model: &Model, row: usize) -> Option<usize> {
-    let rests = |k: &usize| model.forces[*k].held_row == Some(row) && is_rigid(model, *k);
-    (0..model.forces.len()).find(rests)
-}
-
 impl From<Reason> for Box<Failure> {
     fn from(reason: Reason) -> Self {
         Self::new(Failure { reason, run: Run::default() })
@@ -111,35 +96,6 @@ impl From<Reason> for Box<Failure> {
 }
 
 impl Failure {
-    /// Failure of a contact whose sliding has no solution.
-    pub(super) fn paradox(model: &Model, t: f64, contact: usize) -> Box<Self> {
-        let name = model.forces[contact].name.clone();
-        let message = format!(
-            "friction paradox (Painlevé) in contact {name} at t = {t:.6} s: no normal force agrees with the friction that it \
-             causes, so that the contact jams; reduce its friction, give it a stiffness in place of restitution, or \
-             use jam = \"impact\""
-        );
-        Reason::Singular { t, name, message }.into()
-    }
-
-    /// Failure of a stop, contact or friction whose mode contradicts its motion, although others were tried.
-    pub(super) fn contradiction(model: &Model, t: f64, force: usize) -> Box<Self> {
-        let name = model.forces[force].name.clone();
-        let message = format!(
-            "at t = {t:.6} s no combination was found in which all closed contacts press or separate and all friction \
-             sticks or slides by its law: {name} contradicts it; reduce the friction, or give a stiffness in place of \
-             restitution"
-        );
-        Reason::Singular { t, name, message }.into()
-    }
-
-    /// Failure of a contact beyond the end of its curve.
-    pub(super) fn off_the_curve(t: f64, message: &str) -> Box<Self> {
-        let message = format!("{message} at t = {t:.6} s");
-        let hint = "extend the range of the curve, or end the run before";
-        Reason::Integration { t, message, hint }.into()
-    }
-
     /// Failure of equations that have no usable solution at a time and a position.
     pub(super) fn at_state(model: &Model, t: f64, q: &[f64], breakdown: Breakdown) -> Box<Self> {
         let name = |row| model.constraints[model.layout.owner(row).0].name.clone();

@@ -32,13 +32,14 @@
 //! | `prepared`, `model_cache` | a model for many runs |
 //! | `law_jump` | laws of joints and drivers that jump |
 //! | `laws_before` | laws of forces that jump where a phase ends |
-//! | `failure`, `clock` | errors in terms of the mechanism; wall time |
+//! | `failure`, `contact_failures`, `clock` | errors in terms of the mechanism; wall time |
 
 mod absolute_tolerance;
 mod accelerations;
 mod branch_averaging;
 mod clock;
 mod constraint_violation;
+mod contact_failures;
 mod contact_resolution;
 mod continued;
 mod course;
