@@ -1,11 +1,11 @@
 //! Failures of contacts and friction that no motion agrees with.
 
-use super::failure::{Failure, Reason};
+use super::failure::{positions, Failure, Reason};
 use crate::analyses::rigid::is_rigid;
 use crate::model::Model;
 
 /// The friction paradox of a joint, at these positions.
-pub(super) fn jammed(t: f64, joint: &str, positions: &str) -> String {
+fn jammed(t: f64, joint: &str, positions: &str) -> String {
     format!(
         "friction paradox (Painlevé) in joint {joint} at t = {t:.6} s: no reaction agrees with the friction that it \
          causes, so that the mechanism jams ({positions}); reduce the coefficient of friction, or give the friction a \
@@ -14,12 +14,22 @@ pub(super) fn jammed(t: f64, joint: &str, positions: &str) -> String {
 }
 
 /// The contact that rests by a row.
-pub(super) fn contact_at(model: &Model, row: usize) -> Option<usize> {
+fn contact_at(model: &Model, row: usize) -> Option<usize> {
     let rests = |k: &usize| model.forces[*k].held_row == Some(row) && is_rigid(model, *k);
     (0..model.forces.len()).find(rests)
 }
 
 impl Failure {
+    /// Failure of forces that no reaction of a row agrees with.
+    pub(super) fn reaction(model: &Model, t: f64, q: &[f64], row: usize) -> Box<Self> {
+        if let Some(contact) = contact_at(model, row) {
+            return Self::paradox(model, t, contact);
+        }
+        let name = model.constraints[model.layout.owner(row).0].name.clone();
+        let message = jammed(t, &name, &positions(model, q));
+        Reason::Singular { t, name, message }.into()
+    }
+
     /// Failure of a contact whose sliding has no solution.
     pub(super) fn paradox(model: &Model, t: f64, contact: usize) -> Box<Self> {
         let name = model.forces[contact].name.clone();

@@ -1,6 +1,5 @@
 //! Failures of forward dynamics, in terms of the mechanism.
 
-use super::contact_failures::{contact_at, jammed};
 use super::law_fault::{undefined_law, LawFault};
 use super::law_jump::{LawJump, SMOOTH};
 use super::no_mass;
@@ -119,10 +118,7 @@ impl Failure {
                 (name(row), message)
             }
             Breakdown::Beside { row, left } => (name(row), beside(model, t, q, (row, left))),
-            Breakdown::Reaction(row) => match contact_at(model, row) {
-                Some(contact) => return Self::paradox(model, t, contact),
-                None => (name(row), jammed(t, &name(row), &positions(model, q))),
-            },
+            Breakdown::Reaction(row) => return Self::reaction(model, t, q, row),
             Breakdown::Column(column) => no_mass::undetermined(model, t, column),
             Breakdown::Open { gap, .. } if gap.is_nan() => return Self::undefined(model, t, q),
             Breakdown::Open { row, gap } => {
@@ -342,7 +338,7 @@ fn beside(model: &Model, t: f64, q: &[f64], (row, left): (usize, f64)) -> String
 }
 
 /// The positions of the bodies.
-fn positions(model: &Model, q: &[f64]) -> String {
+pub(super) fn positions(model: &Model, q: &[f64]) -> String {
     let bodies = model.bodies.iter().zip(&model.layout.bodies).skip(1).take(MOST_BODIES);
     let bodies = bodies.map(|(body, columns)| (body, columns.of(q)));
     let bodies: Vec<String> = bodies

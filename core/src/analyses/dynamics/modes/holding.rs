@@ -9,7 +9,7 @@ use super::companions::{self, contact_of};
 use super::dependence::{holders_of_friction, well_led, with_held};
 use super::impacts::{self, restitution};
 use super::place::{drivers_rest, mode_of, scaled, with_modes, StateAt, NOISE, STILL};
-use super::resting_contacts::{resting, together};
+use super::resting_contacts::{resting, together, Tried};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
@@ -243,10 +243,6 @@ fn hold(
         },
         Err(failure) => (false, Err(failure)),
     };
-    // friction holds or slides in two directions; a contact rests or is free
-    let rubs = |k: &usize| free.iter().any(|of| of.force == *k && of.mode != Mode::Free);
-    let ways = candidates.iter().map(|k| if rubs(k) { 3_usize } else { 2 }).list();
-    let count = ways.iter().fold(1, |all: usize, own| all.saturating_mul(*own));
     let tried = |modes: Vec<ForceMode>| {
         let ended = with_leaders(&modes, ended);
         // with friction in contradictory directions there may be no solution
@@ -262,27 +258,35 @@ fn hold(
     if let Some(modes) = together((model, place), &free, &all, &tried) {
         return Ok(modes);
     }
-    if count > MOST_TRIED {
-        return otherwise;
-    }
-    // a force that was released early may have to hold after all: all combinations are tried, those in which most
-    // forces hold first
-    for choice in 0..count {
-        let of = |place: usize| choice / ways[..place].iter().product::<usize>() % ways[place];
-        let (mut now, mut left) = (free.clone(), Vec::new());
-        for (place, (k, side)) in all.iter().enumerate() {
+    combined((model, place), &free, &all, &tried).map_or(otherwise, Ok)
+}
+
+/// The first modes of all combinations that can be `tried`, those in which most forces hold first: a force that was released
+/// early may have to hold after all. None if there are too many.
+fn combined(
+    (model, place): (&Model, &StateAt<'_>),
+    free: &[ForceMode],
+    all: &[(usize, f64)],
+    tried: &Tried<'_>,
+) -> Option<Vec<ForceMode>> {
+    // friction holds or slides in two directions; a contact rests or is free
+    let rubs = |k: &usize| free.iter().any(|of| of.force == *k && of.mode != Mode::Free);
+    let ways = all.iter().map(|(k, _)| if rubs(k) { 3_usize } else { 2 }).list();
+    let count = ways.iter().fold(1, |all: usize, own| all.saturating_mul(*own));
+    let of = |choice: usize, at: usize| choice / ways[..at].iter().product::<usize>() % ways[at];
+    let mut choices = if count > MOST_TRIED { 0..0 } else { 0..count };
+    choices.find_map(|choice| {
+        let (mut now, mut left) = (free.to_vec(), Vec::new());
+        for (at, (k, side)) in all.iter().enumerate() {
             let own = now.iter_mut().find(|of| of.force == *k).expect("it has modes");
-            match (of(place), own.mode) {
+            match (of(choice, at), own.mode) {
                 (0, _) => left.push((*k, *side)),
                 (way, Mode::Slides(_)) => own.mode = Mode::Slides([1.0, -1.0][way - 1]),
                 _ => {}
             }
         }
-        if let Some(modes) = tried(well_led(model, place, &now, &left)) {
-            return Ok(modes);
-        }
-    }
-    otherwise
+        tried(well_led(model, place, &now, &left))
+    })
 }
 
 /// Releases the force with the largest excess until none exceeds its limit. Returns also whether some are released although

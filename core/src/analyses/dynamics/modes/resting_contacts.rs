@@ -20,7 +20,7 @@ const ZERO: f64 = 1e-9;
 const PARTS: [f64; 6] = [0.25, 0.5, 0.75, 0.9, 0.99, 0.999];
 
 /// Modes that are tried: None if they contradict their laws.
-type Tried<'a> = dyn Fn(Vec<ForceMode>) -> Option<Vec<ForceMode>> + 'a;
+pub(super) type Tried<'a> = dyn Fn(Vec<ForceMode>) -> Option<Vec<ForceMode>> + 'a;
 
 /// The modes in which all candidates rest, if their forces can be shared so that all are within their limits.
 pub(super) fn resting(
