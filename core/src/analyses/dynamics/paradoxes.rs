@@ -7,15 +7,15 @@ use super::run_results::Run;
 use super::setting::Setting;
 use crate::elements::Mode;
 use crate::math::Listed;
-use crate::model::Model;
+use crate::model::{ForceMode, Model};
 use serde::{Deserialize, Serialize};
 
 /// The contacts at which a paradox ended a phase, and what was reported.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Paradoxes {
     lost: Vec<usize>,
-    /// Whether a paradox, several motions, or motions that were not examined were reported.
-    told: [bool; 3],
+    /// Whether a paradox, several motions, motions that were not examined, or shared friction were reported.
+    told: [bool; 4],
 }
 
 impl Paradoxes {
@@ -68,6 +68,15 @@ impl Paradoxes {
                 "friction paradox (Painlevé) of {} at t = {t:.6} s: no normal force agrees with its friction; an impact \
                  without collision ended the sliding (jam = \"impact\")",
                 name(*k)
+            ));
+        }
+        let shares = |own: &&ForceMode| matches!(own.mode, Mode::Carries(_) | Mode::Follows { .. });
+        let shared = settled.modes.iter().find(shares);
+        if let Some(own) = shared.filter(|_| !std::mem::replace(&mut self.told[3], true)) {
+            run.notes.push(format!(
+                "from t = {t:.6} s on, the forces of {} and of other friction at rest are not unique: they are shared in one of \
+                 several ways, each within its limits",
+                name(own.force)
             ));
         }
         match settled.uniqueness {
