@@ -55,8 +55,11 @@ pub(super) struct MotionSlopes<'a> {
     /// next.
     step: usize,
     next: usize,
-    /// The last state that was taken from the run, with its derivatives.
+    /// The last state that was taken from the run, with its derivatives at a time that moves as the last change of the
+    /// motion does.
     y: Vec<f64>,
+    /// The scale of each component.
+    scales: Vec<f64>,
     stepper: SlopeStepper,
     /// The first steps of the parts that explicit and implicit methods have taken.
     methods: Vec<usize>,
@@ -103,7 +106,8 @@ impl<'a> MotionSlopes<'a> {
         }
         let [loose, tight] = TOLERANCES;
         let rtol = scheme.control().rtol.clamp(tight, loose);
-        let atol = scales(model, run, sizes).iter().map(|x| ABSOLUTE * rtol * x).list();
+        let scales = scales(model, run, sizes);
+        let atol = scales.iter().map(|x| ABSOLUTE * rtol * x).list();
         let stepper = SlopeStepper::new(&ode, (rtol, atol), (first, last), &y);
         let stepper = stepper.map_err(|_| "the run has no steps".to_string())?;
         let last = last_state(model, run);
@@ -119,6 +123,7 @@ impl<'a> MotionSlopes<'a> {
             step: 0,
             next: 0,
             y,
+            scales,
             stepper,
             methods,
             begins,
@@ -127,7 +132,7 @@ impl<'a> MotionSlopes<'a> {
             since,
         };
         slopes.begin_phase(&late)?;
-        slopes.leave_behind(&late)?;
+        slopes.leave_behind()?;
         Ok(slopes)
     }
 
@@ -156,7 +161,7 @@ impl<'a> MotionSlopes<'a> {
         self.begins.get(self.phase + 1) == Some(&step)
     }
 
-    /// The state with its derivatives at a time that is not before the last one, and not beyond the next corner. At a
+    /// The state with its derivatives at a fixed time that is not before the last one, and not beyond the next corner. At a
     /// corner it is the state before the change.
     ///
     /// # Errors
@@ -165,8 +170,8 @@ impl<'a> MotionSlopes<'a> {
         while t > self.steps.t[self.step] {
             if t < self.stepper.t() {
                 let mut y = self.stepper.at(&mut self.ode, t).map_err(|_| singular(t))?;
-                self.project(t, &mut y)?;
-                return Ok(y);
+                self.ode.project(t, &mut y).map_err(|_| singular(t))?;
+                return self.ode.at_fixed_time(t, y).map_err(|_| singular(t));
             } else if self.stepper.t() == self.steps.t[self.next] {
                 self.arrive()?;
             } else {
@@ -174,7 +179,7 @@ impl<'a> MotionSlopes<'a> {
                 self.stepper.step(&mut self.ode).map_err(failed)?;
             }
         }
-        Ok(self.y.clone())
+        self.ode.at_fixed_time(t, self.y.clone()).map_err(|_| singular(t))
     }
 
     /// Takes the state of the run at the end of steps.
@@ -187,8 +192,10 @@ impl<'a> MotionSlopes<'a> {
             true => take(&self.steps.y[self.step * n_y..][..n_y], self.asked.count, &mut y),
             false => take(&self.last, self.asked.count, &mut y),
         }
-        self.project(end, &mut y)?;
+        self.ode.project(end, &mut y).map_err(|_| singular(end))?;
         self.y = y;
+        let of = (end, &self.asked.sizes[..]);
+        self.ode.calm_down(of, &self.scales, &mut self.y).map_err(|_| singular(end))?;
         self.go_on()
     }
 
@@ -210,11 +217,6 @@ impl<'a> MotionSlopes<'a> {
         let first = is_implicit.then_some(t[step + 1] - begin);
         let again = self.stepper.go_on(&self.ode, (begin, t[self.next]), &self.y, first);
         again.map_err(|_| singular(begin))
-    }
-
-    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), String> {
-        let late = vec![0.0; self.asked.sizes.len()];
-        self.ode.project((t, &late), y).map_err(|_| singular(t))
     }
 
     /// The functions whose zeros determine the time of the present corner.
@@ -271,7 +273,9 @@ impl<'a> MotionSlopes<'a> {
         let t = self.steps.t[self.step];
         let failed = |_| singular(t);
         let rates = self.ode.rates(t, &self.y).map_err(failed)?;
+        self.ode.shift((&rates, &self.ode.late), -1.0, &mut self.y);
         self.ode.shift((&rates, late), 1.0, &mut self.y);
+        self.ode.late = late.to_vec();
         if self.next_pieces() == Some(self.step) {
             self.held += 1;
         }
@@ -282,15 +286,12 @@ impl<'a> MotionSlopes<'a> {
             }
             false => self.hold_pieces(),
         }
-        self.leave_behind(late)
+        self.leave_behind()
     }
 
-    /// Changes the whole derivatives of the state at the present corner to those at a fixed time.
-    fn leave_behind(&mut self, late: &[f64]) -> Result<(), String> {
-        let t = self.steps.t[self.step];
-        let rates = self.ode.rates(t, &self.y).map_err(|_| singular(t))?;
-        self.ode.shift((&rates, late), -1.0, &mut self.y);
-        self.since = (t, self.y.clone());
+    /// Goes on from the present corner.
+    fn leave_behind(&mut self) -> Result<(), String> {
+        self.since = (self.steps.t[self.step], self.y.clone());
         self.go_on()
     }
 
@@ -315,12 +316,13 @@ impl<'a> MotionSlopes<'a> {
             self.ode = Self::equations_of(asked, self.phase)?;
             self.stepper.forget();
         }
+        self.ode.late = late.to_vec();
         if let Some(known) = steps.y.get(self.step * n_y..(self.step + 1) * n_y) {
             take(known, asked.count, &mut self.y);
         }
         self.hold_pieces();
-        self.ode.anchor((t, late), &self.y);
-        self.ode.project((t, late), &mut self.y).map_err(failed)
+        self.ode.anchor(t, &self.y);
+        self.ode.project(t, &mut self.y).map_err(failed)
     }
 
     fn hold_pieces(&mut self) {

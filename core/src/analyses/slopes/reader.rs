@@ -121,39 +121,54 @@ impl<'a> Reader<'a> {
         while self.dissipation.is_behind(t) {
             self.dissipate(t)?;
         }
-        self.instant(t)
+        let states = self.arrive(t)?;
+        self.whole_row(t, states, &[])
     }
 
     /// Sums the dissipated energies over a step, or to the start of the run.
     fn dissipate(&mut self, t: f64) -> Result<(), String> {
         if self.dissipation.t.is_nan() {
-            let row = self.instant(self.dissipation.start())?;
+            let count = ABREAST * self.arrive(self.dissipation.start())?.len();
             let late = match &self.course {
                 StateSlopes::Dynamics(motion) => motion.late_start().to_vec(),
-                StateSlopes::Driven(..) => vec![0.0; row.variables[0]],
+                StateSlopes::Driven(..) => vec![0.0; count],
             };
-            self.dissipation.begin(&row.values, &late);
+            self.dissipation.begin(&late);
             return Ok(());
         }
         let (end, points) = self.dissipation.panel(t);
         for [t, duration] in points {
-            let row = self.instant(t)?;
+            let states = self.arrive(t)?;
+            let row = self.row(t, states, &[])?;
             self.dissipation.add(duration, &row.values, &row.slopes);
         }
         self.dissipation.t = end;
         Ok(())
     }
 
-    /// The measures at a time with the energies at present.
-    fn instant(&mut self, t: f64) -> Result<SlopeRow, String> {
+    /// Goes beyond the changes of the motion up to a time, and returns the states there.
+    fn arrive(&mut self, t: f64) -> Result<Vec<Vec<Slope>>, String> {
         while let StateSlopes::Dynamics(motion) = &mut self.course {
             match motion.corner().filter(|corner| *corner <= t) {
                 Some(corner) => self.turn(corner)?,
                 None => break,
             }
         }
-        let states = self.states(t)?;
-        self.row(t, states, &[])
+        self.states(t)
+    }
+
+    /// The measures and the functions of triggers at a state, with the derivatives of the energies there.
+    fn whole_row(
+        &mut self,
+        t: f64,
+        states: Vec<Vec<Slope>>,
+        triggers: &[Trigger],
+    ) -> Result<SlopeRow, String> {
+        if !self.dissipation.forces.is_empty() {
+            let powers = self.row(t, states.clone(), triggers)?.values;
+            self.dissipation.hold_time(&powers);
+        }
+        self.row(t, states, triggers)
     }
 
     /// The state at the end of the motion with its whole derivatives, in blocks of variables, and the derivatives of
@@ -189,7 +204,7 @@ impl<'a> Reader<'a> {
         let (begun, start) = motion.since();
         let (n_y, start) = (self.model.layout.n_y(), start.to_vec());
         let first = self.over_time(begun, &start[..n_y], (true, &triggers))?;
-        let mut before = self.row(t, states, &triggers)?;
+        let mut before = self.whole_row(t, states, &triggers)?;
         let StateSlopes::Dynamics(motion) = &self.course else { return Ok(()) };
         let (own, since, mut times) = (self.measures.len(), t - begun, Vec::new());
         for (k, trigger) in triggers.iter().enumerate() {
@@ -210,18 +225,12 @@ impl<'a> Reader<'a> {
         let StateSlopes::Dynamics(motion) = &mut self.course else { return Ok(()) };
         motion.turn(&late)?;
         self.follow();
+        self.dissipation.turn(&before.values, &late);
         let states = self.states(t)?;
-        let after = self.row(t, states.clone(), &[])?;
+        let after = self.whole_row(t, states, &[])?;
         before.slopes.truncate(self.measures.len());
         before.values.truncate(self.measures.len());
-        let mut corner = Corner { late, names, sides: [before, after] };
-        if !self.dissipation.forces.is_empty() {
-            for (side, sign) in corner.sides.iter().zip([1.0, -1.0]) {
-                self.dissipation.move_by(&side.values, &corner.late, sign);
-            }
-            corner.sides[1] = self.row(t, states, &[])?;
-        }
-        self.corners.push(corner);
+        self.corners.push(Corner { late, names, sides: [before, after] });
         Ok(())
     }
 
