@@ -6,6 +6,7 @@
 use super::impacts;
 use super::ode::SlopeOde;
 use super::run_ends::{last_state, scales};
+use super::statistics::DOUBTFUL;
 use super::stepper::SlopeStepper;
 use super::triggers::Trigger;
 use crate::analyses::assemble::StartSlopes;
@@ -23,8 +24,12 @@ use std::sync::Arc;
 const TOLERANCES: [f64; 2] = [1e-7, 1e-12];
 /// Absolute tolerance, as a part of the relative one and of the scale.
 const ABSOLUTE: f64 = 1e-3;
-/// Number of steps of an implicit method after which it begins anew at the state of the run.
-const APART: f64 = 8.0;
+/// Number of steps after which the motion is compared with the run.
+const APART: f64 = 50.0;
+/// Distance of a coordinate from the run, relative to the size of the mechanism or to a radian, from which the motion goes on
+/// from the state of the run: a hundredth of the error that is remarked. In a stiff motion, the velocities of explicit steps
+/// have errors that decay at once. Derivatives would keep something of each one.
+const CLOSE: f64 = 0.01 * DOUBTFUL;
 
 /// The equations of the model of a phase, for blocks of variables.
 type PhaseEquations<'a> = Box<dyn Fn(&Model, &Setting) -> Result<Vec<Sensitivity>, String> + 'a>;
@@ -189,7 +194,12 @@ impl<'a> MotionSlopes<'a> {
         self.step = self.next;
         match self.step + 1 < self.steps.t.len() {
             _ if self.ends_phase(self.step) => {}
-            true => take(&self.steps.y[self.step * n_y..][..n_y], self.asked.count, &mut y),
+            true => {
+                let known = &self.steps.y[self.step * n_y..][..n_y];
+                if self.distance(known, &y) > CLOSE {
+                    take(known, self.asked.count, &mut y);
+                }
+            }
             false => take(&self.last, self.asked.count, &mut y),
         }
         self.ode.project(end, &mut y).map_err(|_| singular(end))?;
@@ -199,8 +209,14 @@ impl<'a> MotionSlopes<'a> {
         self.go_on()
     }
 
-    /// Continues from the present state, to the end of as many steps of the run as fit into one step, or into some of an
-    /// implicit method.
+    /// The largest distance of the coordinates of two states, relative to their scales.
+    fn distance(&self, one: &[f64], other: &[f64]) -> f64 {
+        let n_q = self.ode.model.layout.n_q;
+        let each = one.iter().zip(other).zip(&self.scales[..n_q]);
+        each.map(|((a, b), scale)| (a - b).abs() / scale).fold(0.0, f64::max)
+    }
+
+    /// Continues from the present state, to the end of as many steps of the run as fit into some steps.
     fn go_on(&mut self) -> Result<(), String> {
         let (t, step) = (&self.steps.t, self.step);
         let (begin, mut last) = (t[step], self.corner().unwrap_or(t[t.len() - 1]));
@@ -211,7 +227,7 @@ impl<'a> MotionSlopes<'a> {
         let other = self.methods.get(self.methods.partition_point(|first| *first <= step));
         last = other.map_or(last, |first| last.min(t[*first]));
         let known = self.stepper.next_size().filter(|_| self.stepper.is_implicit() == is_implicit);
-        let size = known.unwrap_or(0.0) * if is_implicit { APART } else { 1.0 };
+        let size = APART * known.unwrap_or(0.0);
         let most = t.partition_point(|end| *end <= last && end - begin <= size);
         self.next = most.saturating_sub(1).max(step + 1);
         let first = is_implicit.then_some(t[step + 1] - begin);
