@@ -5,11 +5,10 @@
 
 use super::impacts;
 use super::ode::SlopeOde;
-use super::run_ends::{last_state, scales};
+use super::run_ends::{distance, last_state, scales};
 use super::statistics::DOUBTFUL;
 use super::stepper::SlopeStepper;
 use super::triggers::Trigger;
-use crate::analyses::assemble::StartSlopes;
 use crate::analyses::dynamics::{
     planned, Options, Passage, PiecewiseInterpolant, Run, Scheme, Setting,
 };
@@ -137,7 +136,8 @@ impl<'a> MotionSlopes<'a> {
             since,
         };
         slopes.begin_phase(&late)?;
-        slopes.leave_behind()?;
+        slopes.since.1.clone_from(&slopes.y);
+        slopes.go_on()?;
         Ok(slopes)
     }
 
@@ -192,28 +192,18 @@ impl<'a> MotionSlopes<'a> {
         let (n_y, end) = (self.ode.model.layout.n_y(), self.steps.t[self.next]);
         let mut y = self.stepper.y(&self.ode);
         self.step = self.next;
-        match self.step + 1 < self.steps.t.len() {
-            _ if self.ends_phase(self.step) => {}
-            true => {
-                let known = &self.steps.y[self.step * n_y..][..n_y];
-                if self.distance(known, &y) > CLOSE {
-                    take(known, self.asked.count, &mut y);
-                }
-            }
-            false => take(&self.last, self.asked.count, &mut y),
+        let is_last = self.step + 1 == self.steps.t.len();
+        let known = if is_last { &self.last } else { &self.steps.y[self.step * n_y..][..n_y] };
+        let n_q = self.ode.model.layout.n_q;
+        let is_far = || distance(known, &y, &self.scales[..n_q]) > CLOSE;
+        if !self.ends_phase(self.step) && (is_last || is_far()) {
+            take(known, self.asked.count, &mut y);
         }
         self.ode.project(end, &mut y).map_err(|_| singular(end))?;
         self.y = y;
         let of = (end, &self.asked.sizes[..]);
         self.ode.calm_down(of, &self.scales, &mut self.y).map_err(|_| singular(end))?;
         self.go_on()
-    }
-
-    /// The largest distance of the coordinates of two states, relative to their scales.
-    fn distance(&self, one: &[f64], other: &[f64]) -> f64 {
-        let n_q = self.ode.model.layout.n_q;
-        let each = one.iter().zip(other).zip(&self.scales[..n_q]);
-        each.map(|((a, b), scale)| (a - b).abs() / scale).fold(0.0, f64::max)
     }
 
     /// Continues from the present state, to the end of as many steps of the run as fit into some steps.
@@ -302,12 +292,7 @@ impl<'a> MotionSlopes<'a> {
             }
             false => self.hold_pieces(),
         }
-        self.leave_behind()
-    }
-
-    /// Goes on from the present corner.
-    fn leave_behind(&mut self) -> Result<(), String> {
-        self.since = (self.steps.t[self.step], self.y.clone());
+        self.since = (t, self.y.clone());
         self.go_on()
     }
 
@@ -409,10 +394,4 @@ fn impossible(phase: usize) -> String {
 
 fn singular(t: f64) -> String {
     format!("it has no bound: the position at t = {t:.6} s is singular, or the forces there have no derivative")
-}
-
-/// A start as one row: q, v and z.
-pub(super) fn joined(start: StartSlopes) -> Vec<Slope> {
-    let [q, v, z] = start;
-    q.into_iter().chain(v).chain(z).list()
 }

@@ -3,7 +3,7 @@
 use super::dissipation::Dissipation;
 use super::driven;
 use super::motion::MotionSlopes;
-use super::triggers::Trigger;
+use super::triggers::{agreed, Trigger};
 use crate::analyses::measures::Measure;
 use crate::analyses::signals::Seen;
 use crate::equations::actions;
@@ -59,10 +59,6 @@ impl Corner {
 const GRAZES: f64 = 1e-6;
 /// Part of the duration of a run within which two changes count as simultaneous.
 const NEAR: f64 = 1e-10;
-/// Part of a derivative by which two derivatives of one time may differ.
-const TOGETHER: f64 = 1e-9;
-/// Part of the largest effect of a variable on a time below which an effect counts as a rounding error.
-const ROUNDED: f64 = 1e-12;
 
 /// The values of all measures at a time.
 #[derive(Clone, Debug)]
@@ -367,30 +363,6 @@ impl SlopeRow {
 
 fn touches(name: &str, t: f64) -> String {
     format!("{name} only touches its limit at t = {t:.6} s")
-}
-
-/// The derivatives of a time at which one thing or more change, by variables with some magnitudes.
-///
-/// # Errors
-/// The changes do not stay together.
-fn agreed(t: f64, times: &[(&str, Vec<f64>)], sizes: &[f64]) -> Result<Vec<f64>, String> {
-    let (name, late) = &times[0];
-    let effects = |of: &[f64]| {
-        of.iter().zip(sizes).fold(0.0_f64, |most, (x, size)| most.max((x * size).abs()))
-    };
-    for (other, own) in &times[1..] {
-        let floor = ROUNDED * effects(late).max(effects(own));
-        let differ = |((a, b), size): ((&f64, &f64), &f64)| {
-            let most = (TOGETHER * a.abs().max(b.abs())).max(floor / size);
-            (a - b).abs() > most || (a - b).is_nan()
-        };
-        if late.iter().zip(own).zip(sizes).any(differ) {
-            return Err(format!(
-                "{name} and {other} happen together at t = {t:.6} s, and their order may change"
-            ));
-        }
-    }
-    Ok(late.clone())
 }
 
 /// The measures and the functions of triggers at a state whose accelerations and multipliers are known.

@@ -104,3 +104,9 @@ pub(super) fn last_state(model: &Model, run: &Run) -> Vec<f64> {
     ];
     parts.concat()
 }
+
+/// The largest distance of the coordinates of two states, relative to their scales.
+pub(super) fn distance(one: &[f64], other: &[f64], scales: &[f64]) -> f64 {
+    let each = one.iter().zip(other).zip(scales);
+    each.map(|((a, b), scale)| (a - b).abs() / scale).fold(0.0, f64::max)
+}
