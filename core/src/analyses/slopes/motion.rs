@@ -23,8 +23,8 @@ use std::sync::Arc;
 const TOLERANCES: [f64; 2] = [1e-7, 1e-12];
 /// Absolute tolerance, as a part of the relative one and of the scale.
 const ABSOLUTE: f64 = 1e-3;
-/// Number of steps after which the motion is compared with the run.
-const APART: f64 = 50.0;
+/// Number of steps after which the motion is compared with the run, and while something decays that a change has begun.
+const APART: [f64; 2] = [50.0, 4.0];
 /// Distance of a coordinate from the run, relative to the size of the mechanism or to a radian, from which the motion goes on
 /// from the state of the run: a hundredth of the error that is remarked. In a stiff motion, the velocities of explicit steps
 /// have errors that decay at once. Derivatives would keep something of each one.
@@ -217,7 +217,8 @@ impl<'a> MotionSlopes<'a> {
         let other = self.methods.get(self.methods.partition_point(|first| *first <= step));
         last = other.map_or(last, |first| last.min(t[*first]));
         let known = self.stepper.next_size().filter(|_| self.stepper.is_implicit() == is_implicit);
-        let size = APART * known.unwrap_or(0.0);
+        let decays = self.ode.late.iter().any(|late| *late != 0.0);
+        let size = APART[usize::from(decays)] * known.unwrap_or(0.0);
         let most = t.partition_point(|end| *end <= last && end - begin <= size);
         self.next = most.saturating_sub(1).max(step + 1);
         let first = is_implicit.then_some(t[step + 1] - begin);

@@ -68,6 +68,8 @@ pub(super) struct SlopeRow {
     pub slopes: Vec<Vec<f64>>,
     /// The value, and its derivative by the time, for each measure.
     pub values: Vec<[f64; 2]>,
+    /// The derivatives of the time of the last change of the motion by each variable while what it has begun decays, then 0.
+    pub late: Vec<f64>,
     /// The number of variables of all blocks, and of those that are asked.
     variables: [usize; 2],
     /// The largest error of a coordinate of the run, relative to its scale.
@@ -284,11 +286,13 @@ impl<'a> Reader<'a> {
         }
         let values = self.over_time(t, &values, (solves, triggers))?;
         let all = ABREAST * states.len();
-        let (count, error) = match &self.course {
-            StateSlopes::Dynamics(motion) => (motion.count(), motion.error(&states)),
-            StateSlopes::Driven(..) => (all, 0.0),
+        let (count, error, late) = match &mut self.course {
+            StateSlopes::Dynamics(motion) => {
+                (motion.count(), motion.error(&states), motion.ode().late.clone())
+            }
+            StateSlopes::Driven(..) => (all, 0.0, vec![0.0; all]),
         };
-        Ok(SlopeRow { t, slopes, values, variables: [all, count], error })
+        Ok(SlopeRow { t, slopes, values, late, variables: [all, count], error })
     }
 
     /// The measures and their derivatives by the time.

@@ -276,6 +276,7 @@ impl SlopeRows {
         let sides = corners.iter_mut().flat_map(|corner| &mut corner.sides);
         for row in rows.iter_mut().chain(sides) {
             row.slopes.iter_mut().for_each(|of| of.truncate(variables));
+            row.late.truncate(variables);
         }
         corners.iter_mut().for_each(|corner| corner.late.truncate(variables));
         let span = (0..reader.measures.len())
@@ -315,6 +316,12 @@ impl SlopeRows {
     pub(super) fn corner(&self, t: f64) -> Option<&Corner> {
         let place = self.corners.partition_point(|corner| corner.t() < t);
         self.corners.get(place).filter(|corner| corner.t() == t)
+    }
+
+    /// The last change of the motion up to a time.
+    pub(super) fn last_corner(&self, t: f64) -> Option<&Corner> {
+        let after = self.corners.partition_point(|corner| corner.t() <= t);
+        after.checked_sub(1).map(|k| &self.corners[k])
     }
 
     /// Why derivatives of a number that is read up to a time are inaccurate, if they are.
