@@ -56,7 +56,7 @@ def row_of_windows(count: int) -> kp.Case:
 
 
 def cantilever() -> kp.Case:
-    """A beam of two elements that begins to vibrate under its weight; its fastest rate is 2e9 1/s."""
+    """A beam of two elements vibrates under its weight; its fastest rate is 2e9 1/s."""
     values = {"E": "70e9 Pa", "L": "0.4 m", "h": "2 mm", "rho": 2700}
     m = kp.Model("cantilever", gravity=(0, -9.81), parameters=values)
     m.ground.points(O=(0, 0))

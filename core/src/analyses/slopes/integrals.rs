@@ -49,17 +49,18 @@ impl SlopeRows {
         };
         // where something decays fast, the time moves with the change that has begun it
         let zero = vec![0.0; self.variables];
-        let (mut before, mut last) = (&zero, 0.0);
+        let (mut before, mut last, mut past) = (&zero, 0.0, f64::NEG_INFINITY);
         for (t, (weight, x)) in found.t.iter().zip(found.weights.iter().zip(&found.values)) {
             let (row, [value, by_x]) = (self.at(*t)?, f(*x));
             if row.late != *before {
-                let begun = self.last_corner(*t).map(|corner| f(corner.sides[1].values[k][0])[0]);
-                add(-last, before);
-                add(begun.unwrap_or(value), &row.late);
+                let corner = self.last_corner(*t).filter(|corner| corner.t() > past);
+                let begun = corner.map(|corner| f(corner.sides[1].values[k][0])[0]);
+                add(-last, &changed(before, &row.late));
+                add(begun.unwrap_or(value), &changed(&row.late, before));
             }
             add(weight * by_x, &row.slopes[k]);
             add(weight * by_x * row.values[k][1], &row.late);
-            (before, last) = (&row.late, value);
+            (before, last, past) = (&row.late, value, *t);
         }
         add(-last, before);
         for corner in &self.corners {
@@ -68,6 +69,11 @@ impl SlopeRows {
         }
         Ok(slopes.iter().map(|slope| factor * slope).list())
     }
+}
+
+/// The numbers that differ from others, and 0 in place of the rest.
+fn changed(of: &[f64], others: &[f64]) -> Vec<f64> {
+    of.iter().zip(others).map(|(x, other)| if x == other { 0.0 } else { *x }).list()
 }
 
 /// Moves those of some points that are at the ends of steps a little inside. At the end itself, a kink such as that of

@@ -219,7 +219,7 @@ pub(super) struct SlopeRows {
 }
 
 impl Corner {
-    fn t(&self) -> f64 {
+    pub(super) fn t(&self) -> f64 {
         self.sides[0].t
     }
 
