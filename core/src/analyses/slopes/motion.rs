@@ -5,8 +5,7 @@
 
 use super::impacts;
 use super::ode::SlopeOde;
-use super::run_ends::{distance, last_state, scales};
-use super::statistics::DOUBTFUL;
+use super::run_ends::{distance, last_state, scales, DOUBTFUL};
 use super::stepper::SlopeStepper;
 use super::triggers::Trigger;
 use crate::analyses::dynamics::{

@@ -7,6 +7,10 @@ use crate::analyses::AnyAnalysis;
 use crate::math::Listed;
 use crate::model::{column_scales, usual_energy, Model, WORKS};
 
+/// Error of a coordinate, relative to the size of the mechanism or to a radian, above which derivatives are doubtful. Where
+/// errors grow, those of derivatives are about ten times as large.
+pub(super) const DOUBTFUL: f64 = 1e-4;
+
 /// A state within a driven run.
 pub(super) fn state_at(
     whole: &PreparedModel,

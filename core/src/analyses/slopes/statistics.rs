@@ -1,6 +1,7 @@
 //! Statistics of measures with derivatives.
 
 use super::reader::{Corner, Reader, SlopeRow};
+use super::run_ends::DOUBTFUL;
 use crate::analyses::statistics::{Extreme, Integrals, BAND, RIVAL};
 use crate::analyses::sweep::{Series, Statistic};
 use crate::math::{Listed, Ordered, ShortArray};
@@ -10,9 +11,8 @@ const BESIDE: f64 = 1.0 / 32.0;
 /// Accuracy of the time of an extreme value, in steps of the run.
 const SEARCHED: f64 = 1e-4;
 
-/// Error of a coordinate, relative to the size of the mechanism or to a radian, above which derivatives are doubtful, and
-/// from which they do not belong to the motion. Where errors grow, those of derivatives are about ten times as large.
-pub(super) const DOUBTFUL: f64 = 1e-4;
+/// Error of a coordinate, relative to the size of the mechanism or to a radian, from which derivatives do not belong to the
+/// motion.
 const LOST: f64 = 1.0;
 
 /// The derivatives of a number by each variable, or the reason for which there are none.
