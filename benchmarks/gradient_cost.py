@@ -55,6 +55,30 @@ def row_of_windows(count: int) -> kp.Case:
     return kp.Case(n_four_bar.windows(count), start, [run])
 
 
+def cantilever() -> kp.Case:
+    """A beam of two elements vibrates under its weight; its fastest rate is 2e9 1/s."""
+    values = {"E": "70e9 Pa", "L": "0.4 m", "h": "2 mm", "rho": 2700}
+    m = kp.Model("cantilever", gravity=(0, -9.81), parameters=values)
+    m.ground.points(O=(0, 0))
+    section = {"rectangle": ["h", "20 mm"]}
+    m.beam("beam", length="L", section=section, young="E", density="rho", damping=1e-4, elements=2)
+    m.weld("clamp", "ground.O", "beam.A")
+    return kp.Case(m, {}, [kp.Dynamics(t_end=0.006, output_step=0.002)])
+
+
+def damped_floor() -> kp.Case:
+    """A mass that falls on a stiff floor, and rests on it."""
+    values = {"k": 1e6, "c": 1e3, "height": 0.12, "mass": 1}
+    m = kp.Model("floor", gravity=(0, -9.81), parameters=values)
+    m.ground.points(O=(0, 0))
+    m.body("body", mass="mass", inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "body.P", axes=("pi/2", "pi/2"))
+    law: dict[str, Any] = {"stiffness": "k", "damping": "c", "free_length": 0.1}
+    m.spring_damper("floor", "ground.O", "body.P", only="compression", **law)
+    start: dict[str, Any] = {"set": {"body.y": "height", "body.vy": 0}}
+    return kp.Case(m, start, [kp.Dynamics(t_end=0.5, output_step=0.05)])
+
+
 def main() -> None:
     """Print the ratios by number of variables."""
     four_bar = kp.load(ROOT / "examples" / "four_bar.toml")
@@ -67,6 +91,13 @@ def main() -> None:
             "K1.angle.final",
         ),
         "100 windows": (*with_variables(row_of_windows(100)), "crank0.angle.final"),
+        "bistable_switch, snap (stiff)": (
+            kp.load(ROOT / "examples" / "bistable_switch.toml").with_analysis("snap"),
+            ["E", "rise", "thickness", "width"],
+            "push.effort.final",
+        ),
+        "cantilever (stiff)": (cantilever(), ["E", "L", "h", "rho"], "beam.B.y.final"),
+        "damped floor (stiff)": (damped_floor(), ["k", "c", "height", "mass"], "body.y.final"),
     }
     for title, (case, names, measure) in cases.items():
         level = {names[0]: [kp.gradient(case, [measure], names[:1]).variables[names[0]]]}

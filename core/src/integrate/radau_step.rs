@@ -126,7 +126,8 @@ impl RadauStep {
         for part in 0..parts {
             system.system.begin_part(part);
             let tolerance = enough.tolerance * if part + 1 < parts { EARLIER } else { 1.0 };
-            match self.newton(system, (t, h), scale, NewtonLimits { tolerance, ..enough }) {
+            let limits = NewtonLimits { tolerance, ..enough };
+            match self.newton(system, (t, h), scale, (limits, slowest)) {
                 NewtonOutcome::Converged(count, rate) => {
                     (most, slowest) = (most.max(count), slowest.max(rate));
                 }
@@ -171,17 +172,17 @@ impl RadauStep {
         }
     }
 
+    /// Newton's iteration. `rate` is that of its convergence for the unknowns before, with the same matrix; 0 without them.
     fn newton<Y: Dae + ?Sized>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
         (t, h): (f64, f64),
         scale: &mut ErrorWeights,
-        NewtonLimits { tolerance, most }: NewtonLimits,
+        (NewtonLimits { tolerance, most }, mut rate): (NewtonLimits, f64),
     ) -> NewtonOutcome {
         self.update_stages(h);
         scale.set(&self.start, &self.stages[2]);
         let mut last = f64::INFINITY;
-        let mut rate = 0.0;
         for iteration in 1..=most {
             self.evaluate(system, (t, h));
             let norm = self.correct(system, h, scale);
@@ -195,12 +196,9 @@ impl RadauStep {
                 if rate >= 1.0 && norm > enough || rate < 1.0 && to_come > enough {
                     return NewtonOutcome::Diverged;
                 }
-                let left = if rate < 0.5 { norm * rate / (1.0 - rate) } else { norm };
-                if left <= enough {
-                    return NewtonOutcome::Converged(iteration, rate);
-                }
             }
-            if norm <= 0.1 * enough {
+            let left = if rate < 0.5 { norm * rate / (1.0 - rate) } else { norm };
+            if rate > 0.0 && left <= enough || norm <= 0.1 * enough {
                 return NewtonOutcome::Converged(iteration, rate);
             }
             last = norm;

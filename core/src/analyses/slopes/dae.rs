@@ -108,9 +108,9 @@ impl Dae for SlopeOde {
         if self.alone {
             return self.residual_alone(t, at, out);
         }
-        let Self { columns, blocks, workspace, .. } = self;
-        let t = Slope::constant(t);
+        let Self { columns, blocks, workspace, late, .. } = self;
         for (b, block) in blocks.iter_mut().enumerate() {
+            let t = Self::time(t, late, b);
             let [q, v, z, a, lam] = [at.q, at.v, at.z, at.a, at.lam].each(|x| columns.read(b, x));
             block.motions.pieces.clone_from(&workspace.motions.pieces);
             let [forces, rows] = block.balance(t, [&q, &v, &z], [&a, &lam]);

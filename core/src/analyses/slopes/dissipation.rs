@@ -17,8 +17,11 @@ pub(super) struct Dissipation {
     /// The time of the energies; NaN before the start.
     pub t: f64,
     pub values: Vec<f64>,
-    /// The derivatives at a fixed time by each variable.
-    slopes: Vec<Vec<f64>>,
+    /// The derivatives at a fixed time by each variable, and those at a time with derivatives `late`, which is that of the
+    /// last change of the motion plus a given duration. Powers of motions that decay fast have large derivatives at a fixed
+    /// time.
+    slopes: [Vec<Vec<f64>>; 2],
+    late: Vec<f64>,
 }
 
 impl Dissipation {
@@ -36,7 +39,8 @@ impl Dissipation {
         let first = measures.len();
         measures.extend(forces.iter().map(|k| Measure::of_dissipation(model, *k)));
         let (values, slopes) = (vec![0.0; forces.len()], vec![Vec::new(); forces.len()]);
-        Self { forces, first, bounds, t: f64::NAN, values, slopes }
+        let slopes = [slopes.clone(), slopes];
+        Self { forces, first, bounds, t: f64::NAN, values, slopes, late: Vec::new() }
     }
 
     /// Whether there are energies to sum up to a time.
@@ -50,10 +54,9 @@ impl Dissipation {
     }
 
     /// Begins with energies of zero at a time with derivatives `late`.
-    pub fn begin(&mut self, values: &[[f64; 2]], late: &[f64]) {
-        self.t = self.bounds[0];
-        self.slopes.fill(vec![0.0; late.len()]);
-        self.move_by(values, late, -1.0);
+    pub fn begin(&mut self, late: &[f64]) {
+        (self.t, self.late) = (self.bounds[0], late.to_vec());
+        self.slopes.iter_mut().for_each(|of| of.fill(vec![0.0; late.len()]));
     }
 
     /// The end of the present step, at most `t`, and the points in it with their weights.
@@ -69,27 +72,42 @@ impl Dissipation {
 
     /// Adds the powers, among the values of all measures with their derivatives, times a duration.
     pub fn add(&mut self, duration: f64, values: &[[f64; 2]], all: &[Vec<f64>]) {
-        for (k, (sum_of_values, slopes)) in self.values.iter_mut().zip(&mut self.slopes).enumerate()
+        for (k, (sum_of_values, slopes)) in
+            self.values.iter_mut().zip(&mut self.slopes[1]).enumerate()
         {
             *sum_of_values += duration * values[self.first + k][0];
-            let own = &all[self.first + k];
-            slopes.iter_mut().zip(own).for_each(|(sum, slope)| *sum += duration * slope);
+            let (own, rate) = (&all[self.first + k], values[self.first + k][1]);
+            for (sum, (slope, late)) in slopes.iter_mut().zip(own.iter().zip(&self.late)) {
+                *sum += duration * (slope + rate * late);
+            }
         }
     }
 
-    /// Adds the powers, among the values of all measures, times derivatives of a time and a sign to the derivatives.
-    pub fn move_by(&mut self, values: &[[f64; 2]], late: &[f64], sign: f64) {
-        for (k, slopes) in self.slopes.iter_mut().enumerate() {
+    /// Finds the derivatives at the present time, held fixed, from the powers among the values of all measures.
+    pub fn hold_time(&mut self, values: &[[f64; 2]]) {
+        let [fixed, moving] = &mut self.slopes;
+        for (k, (fixed, moving)) in fixed.iter_mut().zip(moving).enumerate() {
             let power = values[self.first + k][0];
-            slopes.iter_mut().zip(late).for_each(|(slope, late)| *slope += sign * power * late);
+            let each = fixed.iter_mut().zip(moving.iter().zip(&self.late));
+            each.for_each(|(fixed, (moving, late))| *fixed = moving - power * late);
         }
+    }
+
+    /// Goes beyond a change whose time has the derivatives `late`, with the powers before it.
+    pub fn turn(&mut self, values: &[[f64; 2]], late: &[f64]) {
+        for (k, moving) in self.slopes[1].iter_mut().enumerate() {
+            let power = values[self.first + k][0];
+            let each = moving.iter_mut().zip(late.iter().zip(&self.late));
+            each.for_each(|(moving, (late, before))| *moving += power * (late - before));
+        }
+        self.late = late.to_vec();
     }
 
     /// Appends the energies of all forces of a model to works, in the variables of block `b`.
     pub fn append(&self, model: &Model, b: usize, works: &mut Vec<Slope>) {
         let energy = |place: usize| {
             let mut slope = [0.0; ABREAST];
-            let own = self.slopes[place].iter().skip(ABREAST * b);
+            let own = self.slopes[0][place].iter().skip(ABREAST * b);
             slope.iter_mut().zip(own).for_each(|(to, from)| *to = *from);
             Dual { value: self.values[place], slope }
         };

@@ -1,9 +1,9 @@
 //! All numbers of a request with their derivatives by all variables.
 
-use super::motion::{joined, AskedRun, MotionSlopes};
+use super::motion::{AskedRun, MotionSlopes};
 use super::reader::{Reader, StateSlopes, States};
 use super::run_ends::{ending, refusal, state_at, steps};
-use super::starts::{with_interpolant, Starts};
+use super::starts::{joined, with_interpolant, Starts};
 use super::statistics::{Found, RunTimes, SlopePlan, SlopeRows};
 use super::variables::replacements;
 use super::variant::{equations, unread, ReadyVariant};

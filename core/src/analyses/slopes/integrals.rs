@@ -31,31 +31,49 @@ impl SlopeRows {
     pub(super) fn slopes_of_integral(&self, of: Statistic, k: usize, at: &Integrals) -> Found {
         let found = self.integrals(k, at)?;
         let (value, span) = (of.of_integrals(&found), found.weights.iter().sum::<f64>());
-        let last = self.end_row()?.values[k][0];
+        let end = self.end_row()?.values[k][0];
         // the integral of f(x), a factor on it, and its change with the last time
         let (power, factor, grows) = match of {
-            Statistic::Integral => (1, 1.0, last),
+            Statistic::Integral => (1, 1.0, end),
             _ if span == 0.0 => return self.final_slopes(k),
-            Statistic::Mean => (1, 1.0 / span, last - value),
+            Statistic::Mean => (1, 1.0 / span, end - value),
             _ if value == 0.0 => {
                 return Err("the value is zero, where a magnitude has no derivative".to_string())
             }
-            _ => (2, 0.5 / (span * value), last * last - value * value),
+            _ => (2, 0.5 / (span * value), end * end - value * value),
         };
         let f = |x: f64| [x.powi(power), f64::from(power) * x.powi(power - 1)];
-        let mut slopes: Vec<f64> = self.end.iter().map(|end| grows * end).list();
+        let mut slopes: Vec<f64> = self.end.iter().map(|late| grows * late).list();
         let mut add = |factor: f64, of: &[f64]| {
             slopes.iter_mut().zip(of).for_each(|(sum, slope)| *sum += factor * slope);
         };
+        // where something decays fast, the time moves with the change that has begun it
+        let zero = vec![0.0; self.variables];
+        let (mut before, mut last, mut past) = (&zero, 0.0, f64::NEG_INFINITY);
         for (t, (weight, x)) in found.t.iter().zip(found.weights.iter().zip(&found.values)) {
-            add(weight * f(*x)[1], &self.at(*t)?.slopes[k]);
+            let (row, [value, by_x]) = (self.at(*t)?, f(*x));
+            if row.late != *before {
+                let corner = self.last_corner(*t).filter(|corner| corner.t() > past);
+                let begun = corner.map(|corner| f(corner.sides[1].values[k][0])[0]);
+                add(-last, &changed(before, &row.late));
+                add(begun.unwrap_or(value), &changed(&row.late, before));
+            }
+            add(weight * by_x, &row.slopes[k]);
+            add(weight * by_x * row.values[k][1], &row.late);
+            (before, last, past) = (&row.late, value, *t);
         }
+        add(-last, before);
         for corner in &self.corners {
             let [before, after] = [0, 1].each(|side| f(corner.sides[side].values[k][0])[0]);
             add(before - after, &corner.late);
         }
         Ok(slopes.iter().map(|slope| factor * slope).list())
     }
+}
+
+/// The numbers that differ from others, and 0 in place of the rest.
+fn changed(of: &[f64], others: &[f64]) -> Vec<f64> {
+    of.iter().zip(others).map(|(x, other)| if x == other { 0.0 } else { *x }).list()
 }
 
 /// Moves those of some points that are at the ends of steps a little inside. At the end itself, a kink such as that of

@@ -5,10 +5,9 @@
 
 use super::impacts;
 use super::ode::SlopeOde;
-use super::run_ends::{last_state, scales};
+use super::run_ends::{distance, last_state, scales, DOUBTFUL};
 use super::stepper::SlopeStepper;
 use super::triggers::Trigger;
-use crate::analyses::assemble::StartSlopes;
 use crate::analyses::dynamics::{
     planned, Options, Passage, PiecewiseInterpolant, Run, Scheme, Setting,
 };
@@ -23,8 +22,12 @@ use std::sync::Arc;
 const TOLERANCES: [f64; 2] = [1e-7, 1e-12];
 /// Absolute tolerance, as a part of the relative one and of the scale.
 const ABSOLUTE: f64 = 1e-3;
-/// Number of steps of an implicit method after which it begins anew at the state of the run.
-const APART: f64 = 8.0;
+/// Number of steps after which the motion is compared with the run, and while something decays that a change has begun.
+const APART: [f64; 2] = [50.0, 4.0];
+/// Distance of a coordinate from the run, relative to the size of the mechanism or to a radian, from which the motion goes on
+/// from the state of the run: a hundredth of the error that is remarked. In a stiff motion, the velocities of explicit steps
+/// have errors that decay at once. Derivatives would keep something of each one.
+const CLOSE: f64 = 0.01 * DOUBTFUL;
 
 /// The equations of the model of a phase, for blocks of variables.
 type PhaseEquations<'a> = Box<dyn Fn(&Model, &Setting) -> Result<Vec<Sensitivity>, String> + 'a>;
@@ -55,8 +58,11 @@ pub(super) struct MotionSlopes<'a> {
     /// next.
     step: usize,
     next: usize,
-    /// The last state that was taken from the run, with its derivatives.
+    /// The last state that was taken from the run, with its derivatives at a time that moves as the last change of the
+    /// motion does.
     y: Vec<f64>,
+    /// The scale of each component.
+    scales: Vec<f64>,
     stepper: SlopeStepper,
     /// The first steps of the parts that explicit and implicit methods have taken.
     methods: Vec<usize>,
@@ -103,7 +109,8 @@ impl<'a> MotionSlopes<'a> {
         }
         let [loose, tight] = TOLERANCES;
         let rtol = scheme.control().rtol.clamp(tight, loose);
-        let atol = scales(model, run, sizes).iter().map(|x| ABSOLUTE * rtol * x).list();
+        let scales = scales(model, run, sizes);
+        let atol = scales.iter().map(|x| ABSOLUTE * rtol * x).list();
         let stepper = SlopeStepper::new(&ode, (rtol, atol), (first, last), &y);
         let stepper = stepper.map_err(|_| "the run has no steps".to_string())?;
         let last = last_state(model, run);
@@ -119,6 +126,7 @@ impl<'a> MotionSlopes<'a> {
             step: 0,
             next: 0,
             y,
+            scales,
             stepper,
             methods,
             begins,
@@ -127,7 +135,8 @@ impl<'a> MotionSlopes<'a> {
             since,
         };
         slopes.begin_phase(&late)?;
-        slopes.leave_behind(&late)?;
+        slopes.since.1.clone_from(&slopes.y);
+        slopes.go_on()?;
         Ok(slopes)
     }
 
@@ -156,7 +165,7 @@ impl<'a> MotionSlopes<'a> {
         self.begins.get(self.phase + 1) == Some(&step)
     }
 
-    /// The state with its derivatives at a time that is not before the last one, and not beyond the next corner. At a
+    /// The state with its derivatives at a fixed time that is not before the last one, and not beyond the next corner. At a
     /// corner it is the state before the change.
     ///
     /// # Errors
@@ -165,8 +174,8 @@ impl<'a> MotionSlopes<'a> {
         while t > self.steps.t[self.step] {
             if t < self.stepper.t() {
                 let mut y = self.stepper.at(&mut self.ode, t).map_err(|_| singular(t))?;
-                self.project(t, &mut y)?;
-                return Ok(y);
+                self.ode.project(t, &mut y).map_err(|_| singular(t))?;
+                return self.ode.at_fixed_time(t, y).map_err(|_| singular(t));
             } else if self.stepper.t() == self.steps.t[self.next] {
                 self.arrive()?;
             } else {
@@ -174,7 +183,7 @@ impl<'a> MotionSlopes<'a> {
                 self.stepper.step(&mut self.ode).map_err(failed)?;
             }
         }
-        Ok(self.y.clone())
+        self.ode.at_fixed_time(t, self.y.clone()).map_err(|_| singular(t))
     }
 
     /// Takes the state of the run at the end of steps.
@@ -182,18 +191,21 @@ impl<'a> MotionSlopes<'a> {
         let (n_y, end) = (self.ode.model.layout.n_y(), self.steps.t[self.next]);
         let mut y = self.stepper.y(&self.ode);
         self.step = self.next;
-        match self.step + 1 < self.steps.t.len() {
-            _ if self.ends_phase(self.step) => {}
-            true => take(&self.steps.y[self.step * n_y..][..n_y], self.asked.count, &mut y),
-            false => take(&self.last, self.asked.count, &mut y),
+        let is_last = self.step + 1 == self.steps.t.len();
+        let known = if is_last { &self.last } else { &self.steps.y[self.step * n_y..][..n_y] };
+        let n_q = self.ode.model.layout.n_q;
+        let is_far = || distance(known, &y, &self.scales[..n_q]) > CLOSE;
+        if !self.ends_phase(self.step) && (is_last || is_far()) {
+            take(known, self.asked.count, &mut y);
         }
-        self.project(end, &mut y)?;
+        self.ode.project(end, &mut y).map_err(|_| singular(end))?;
         self.y = y;
+        let of = (end, &self.asked.sizes[..]);
+        self.ode.calm_down(of, &self.scales, &mut self.y).map_err(|_| singular(end))?;
         self.go_on()
     }
 
-    /// Continues from the present state, to the end of as many steps of the run as fit into one step, or into some of an
-    /// implicit method.
+    /// Continues from the present state, to the end of as many steps of the run as fit into some steps.
     fn go_on(&mut self) -> Result<(), String> {
         let (t, step) = (&self.steps.t, self.step);
         let (begin, mut last) = (t[step], self.corner().unwrap_or(t[t.len() - 1]));
@@ -204,17 +216,13 @@ impl<'a> MotionSlopes<'a> {
         let other = self.methods.get(self.methods.partition_point(|first| *first <= step));
         last = other.map_or(last, |first| last.min(t[*first]));
         let known = self.stepper.next_size().filter(|_| self.stepper.is_implicit() == is_implicit);
-        let size = known.unwrap_or(0.0) * if is_implicit { APART } else { 1.0 };
+        let decays = self.ode.late.iter().any(|late| *late != 0.0);
+        let size = APART[usize::from(decays)] * known.unwrap_or(0.0);
         let most = t.partition_point(|end| *end <= last && end - begin <= size);
         self.next = most.saturating_sub(1).max(step + 1);
         let first = is_implicit.then_some(t[step + 1] - begin);
         let again = self.stepper.go_on(&self.ode, (begin, t[self.next]), &self.y, first);
         again.map_err(|_| singular(begin))
-    }
-
-    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), String> {
-        let late = vec![0.0; self.asked.sizes.len()];
-        self.ode.project((t, &late), y).map_err(|_| singular(t))
     }
 
     /// The functions whose zeros determine the time of the present corner.
@@ -271,7 +279,9 @@ impl<'a> MotionSlopes<'a> {
         let t = self.steps.t[self.step];
         let failed = |_| singular(t);
         let rates = self.ode.rates(t, &self.y).map_err(failed)?;
+        self.ode.shift((&rates, &self.ode.late), -1.0, &mut self.y);
         self.ode.shift((&rates, late), 1.0, &mut self.y);
+        self.ode.late = late.to_vec();
         if self.next_pieces() == Some(self.step) {
             self.held += 1;
         }
@@ -282,14 +292,6 @@ impl<'a> MotionSlopes<'a> {
             }
             false => self.hold_pieces(),
         }
-        self.leave_behind(late)
-    }
-
-    /// Changes the whole derivatives of the state at the present corner to those at a fixed time.
-    fn leave_behind(&mut self, late: &[f64]) -> Result<(), String> {
-        let t = self.steps.t[self.step];
-        let rates = self.ode.rates(t, &self.y).map_err(|_| singular(t))?;
-        self.ode.shift((&rates, late), -1.0, &mut self.y);
         self.since = (t, self.y.clone());
         self.go_on()
     }
@@ -315,12 +317,13 @@ impl<'a> MotionSlopes<'a> {
             self.ode = Self::equations_of(asked, self.phase)?;
             self.stepper.forget();
         }
+        self.ode.late = late.to_vec();
         if let Some(known) = steps.y.get(self.step * n_y..(self.step + 1) * n_y) {
             take(known, asked.count, &mut self.y);
         }
         self.hold_pieces();
-        self.ode.anchor((t, late), &self.y);
-        self.ode.project((t, late), &mut self.y).map_err(failed)
+        self.ode.anchor(t, &self.y);
+        self.ode.project(t, &mut self.y).map_err(failed)
     }
 
     fn hold_pieces(&mut self) {
@@ -391,10 +394,4 @@ fn impossible(phase: usize) -> String {
 
 fn singular(t: f64) -> String {
     format!("it has no bound: the position at t = {t:.6} s is singular, or the forces there have no derivative")
-}
-
-/// A start as one row: q, v and z.
-pub(super) fn joined(start: StartSlopes) -> Vec<Slope> {
-    let [q, v, z] = start;
-    q.into_iter().chain(v).chain(z).list()
 }

@@ -12,6 +12,10 @@ use crate::model::{ForceItem, Model};
 use crate::solve::Breakdown;
 use std::sync::Arc;
 
+/// Factor by which derivatives at a fixed time may exceed those at a time that moves with the last change, or numbers as
+/// large as the state, when they take their place: a digit is lost.
+const CALM: f64 = 10.0;
+
 /// y = (state, derivatives of the state by the first variable, by the second variable, and so on). A state is
 /// (q, v, z, works).
 pub(super) struct SlopeOde {
@@ -28,6 +32,9 @@ pub(super) struct SlopeOde {
     pub motion: Option<Box<(Balance, NewtonMatrix)>>,
     /// Whether the motion is solved, not its derivatives.
     pub alone: bool,
+    /// The derivatives of the time. After a change of the motion it is that of the change plus a given duration: at a
+    /// fixed time, derivatives would contain the rates of motions that begin there and decay fast.
+    pub late: Vec<f64>,
     /// The state with derivatives by the variables of one block.
     state: Vec<Slope>,
 }
@@ -40,7 +47,8 @@ impl SlopeOde {
         let layout = &model.layout;
         let columns =
             SlopeColumns::new(sizes, [layout.n_q, layout.n_q, layout.n_z, layout.n_works]);
-        Self { model, workspace, blocks, anchors, n_y, columns, motion: None, alone: false, state }
+        let (motion, alone, late) = (None, false, vec![0.0; columns.count() - 1]);
+        Self { model, workspace, blocks, anchors, n_y, columns, motion, alone, late, state }
     }
 
     /// A time whose derivatives by the variables of block `b` are in `late`.
@@ -50,8 +58,8 @@ impl SlopeOde {
         at
     }
 
-    /// Friction that sticks holds where it is in a state at a time with derivatives `late`.
-    pub fn anchor(&mut self, (t, late): (f64, &[f64]), y: &[f64]) {
+    /// Friction that sticks holds where it is in a state.
+    pub fn anchor(&mut self, t: f64, y: &[f64]) {
         let sticks = |item: &&ForceItem<f64>| {
             matches!(item.element.behaviour(), Some(Behaviour::Sticks))
                 && matches!(item.mode, Mode::Holds(_))
@@ -64,7 +72,7 @@ impl SlopeOde {
         let n = self.model.layout.n_q;
         for b in 0..self.blocks.len() {
             let state = self.state(b, y);
-            let open = self.blocks[b].open(Self::time(t, late, b), &state[..n]);
+            let open = self.blocks[b].open(Self::time(t, &self.late, b), &state[..n]);
             let mut anchors = vec![Slope::constant(0.0); open.len()];
             rows.iter().for_each(|row| anchors[*row] = open[*row]);
             self.anchors.push(anchors);
@@ -73,10 +81,22 @@ impl SlopeOde {
 
     /// The rates of a state, without those of its derivatives.
     pub fn rates(&mut self, t: f64, y: &[f64]) -> Result<Vec<f64>, Breakdown> {
-        let mut dy = vec![0.0; y.len()];
-        self.rate(t, y, &mut dy)?;
-        dy.truncate(self.n_y);
+        let mut dy = vec![0.0; self.n_y];
+        self.rate_of_motion(t, &y[..self.n_y], &mut dy)?;
         Ok(dy)
+    }
+
+    fn rate_of_motion(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Breakdown> {
+        let Self { model, workspace, .. } = self;
+        let [q, v, z, _] = model.layout.split(y);
+        workspace.react(model, t, [q, v, z])?;
+        let powers = workspace.powers(model, v);
+        let [dq, dv, dz, works] = model.layout.split_mut(dy);
+        dq.copy_from_slice(v);
+        dv.copy_from_slice(workspace.a());
+        workspace.state_rates(model, t, dz);
+        works.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
+        Ok(())
     }
 
     /// Adds rates times the derivatives of a time, times `sign`, to the derivatives of a state.
@@ -86,6 +106,41 @@ impl SlopeOde {
                 y[self.n_y * (1 + j) + k] += sign * rate * late;
             }
         }
+    }
+
+    /// A state with its derivatives at a fixed time.
+    pub fn at_fixed_time(&mut self, t: f64, mut y: Vec<f64>) -> Result<Vec<f64>, Breakdown> {
+        if self.late.iter().any(|late| *late != 0.0) {
+            let rates = self.rates(t, &y)?;
+            self.shift((&rates, &self.late), -1.0, &mut y);
+        }
+        Ok(y)
+    }
+
+    /// Goes back to derivatives at a fixed time for variables where what a change of the motion has begun has decayed.
+    /// `sizes` are the magnitudes of the variables, `scales` those of y.
+    pub fn calm_down(
+        &mut self,
+        (t, sizes): (f64, &[f64]),
+        scales: &[f64],
+        y: &mut [f64],
+    ) -> Result<(), Breakdown> {
+        if self.late.iter().all(|late| *late == 0.0) {
+            return Ok(());
+        }
+        let fixed = self.at_fixed_time(t, y.to_vec())?;
+        for (j, size) in sizes.iter().enumerate() {
+            let own = self.n_y * (1 + j)..self.n_y * (2 + j);
+            let is_calm = own.clone().zip(&y[..self.n_y]).all(|(k, x)| {
+                let usual = y[k].abs().max(x.abs() / size).max(scales[k]);
+                fixed[k].abs() <= CALM * usual
+            });
+            if is_calm {
+                self.late[j] = 0.0;
+                y[own.clone()].copy_from_slice(&fixed[own]);
+            }
+        }
+        Ok(())
     }
 
     /// The state with derivatives by the variables of block `b`.
@@ -104,13 +159,13 @@ impl SlopeOde {
         }
     }
 
-    /// Makes the derivatives meet the derivatives of the constraints, at a time with derivatives `late`.
-    pub fn project(&mut self, (t, late): (f64, &[f64]), y: &mut [f64]) -> Result<(), Breakdown> {
+    /// Makes the derivatives meet the derivatives of the constraints.
+    pub fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Breakdown> {
         let [q, v, z, _] = self.model.layout.split(&y[..self.n_y]);
         self.workspace.accelerate(&self.model, t, [q, v, z], Gains::default())?;
         let n = self.model.layout.n_q;
         for b in 0..self.blocks.len() {
-            let (mut state, at) = (self.state(b, y), Self::time(t, late, b));
+            let (mut state, at) = (self.state(b, y), Self::time(t, &self.late, b));
             let mut open = self.blocks[b].open(at, &state[..n]);
             if let Some(anchors) = self.anchors.get(b) {
                 open.iter_mut().zip(anchors).for_each(|(open, anchor)| *open -= *anchor);
@@ -144,21 +199,15 @@ impl Ode for SlopeOde {
     }
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Breakdown> {
-        let Self { model, workspace, blocks, n_y, state, .. } = self;
+        let n_y = self.n_y;
+        self.rate_of_motion(t, &y[..n_y], &mut dy[..n_y])?;
+        let Self { model, workspace, blocks, late, state, .. } = self;
         let model: &Model = model;
-        let (layout, n_y, at) = (&model.layout, *n_y, Slope::constant(t));
-        let [q, v, z, _] = layout.split(&y[..n_y]);
-        workspace.react(model, t, [q, v, z])?;
-        let powers = workspace.powers(model, v);
-        let [dq, dv, dz, works] = layout.split_mut(&mut dy[..n_y]);
-        dq.copy_from_slice(v);
-        dv.copy_from_slice(workspace.a());
-        workspace.state_rates(model, t, dz);
-        works.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
+        let layout = &model.layout;
         let mut rates = vec![Slope::constant(0.0); n_y];
         for (b, block) in blocks.iter_mut().enumerate() {
             gather(n_y, b, y, state);
-            let [q, v, z, _] = layout.split(state);
+            let ([q, v, z, _], at) = (layout.split(state), Self::time(t, late, b));
             block.respond((model, workspace), at, [q, v, z])?;
             block.add_powers_of_drivers(v);
             let [dq, dv, dz, works] = layout.split_mut(&mut rates);

@@ -3,7 +3,7 @@
 use super::dissipation::Dissipation;
 use super::driven;
 use super::motion::MotionSlopes;
-use super::triggers::Trigger;
+use super::triggers::{agreed, Trigger};
 use crate::analyses::measures::Measure;
 use crate::analyses::signals::Seen;
 use crate::equations::actions;
@@ -59,10 +59,6 @@ impl Corner {
 const GRAZES: f64 = 1e-6;
 /// Part of the duration of a run within which two changes count as simultaneous.
 const NEAR: f64 = 1e-10;
-/// Part of a derivative by which two derivatives of one time may differ.
-const TOGETHER: f64 = 1e-9;
-/// Part of the largest effect of a variable on a time below which an effect counts as a rounding error.
-const ROUNDED: f64 = 1e-12;
 
 /// The values of all measures at a time.
 #[derive(Clone, Debug)]
@@ -72,6 +68,8 @@ pub(super) struct SlopeRow {
     pub slopes: Vec<Vec<f64>>,
     /// The value, and its derivative by the time, for each measure.
     pub values: Vec<[f64; 2]>,
+    /// The derivatives of the time of the last change of the motion by each variable while what it has begun decays, then 0.
+    pub late: Vec<f64>,
     /// The number of variables of all blocks, and of those that are asked.
     variables: [usize; 2],
     /// The largest error of a coordinate of the run, relative to its scale.
@@ -121,39 +119,54 @@ impl<'a> Reader<'a> {
         while self.dissipation.is_behind(t) {
             self.dissipate(t)?;
         }
-        self.instant(t)
+        let states = self.arrive(t)?;
+        self.whole_row(t, states, &[])
     }
 
     /// Sums the dissipated energies over a step, or to the start of the run.
     fn dissipate(&mut self, t: f64) -> Result<(), String> {
         if self.dissipation.t.is_nan() {
-            let row = self.instant(self.dissipation.start())?;
+            let count = ABREAST * self.arrive(self.dissipation.start())?.len();
             let late = match &self.course {
                 StateSlopes::Dynamics(motion) => motion.late_start().to_vec(),
-                StateSlopes::Driven(..) => vec![0.0; row.variables[0]],
+                StateSlopes::Driven(..) => vec![0.0; count],
             };
-            self.dissipation.begin(&row.values, &late);
+            self.dissipation.begin(&late);
             return Ok(());
         }
         let (end, points) = self.dissipation.panel(t);
         for [t, duration] in points {
-            let row = self.instant(t)?;
+            let states = self.arrive(t)?;
+            let row = self.row(t, states, &[])?;
             self.dissipation.add(duration, &row.values, &row.slopes);
         }
         self.dissipation.t = end;
         Ok(())
     }
 
-    /// The measures at a time with the energies at present.
-    fn instant(&mut self, t: f64) -> Result<SlopeRow, String> {
+    /// Goes beyond the changes of the motion up to a time, and returns the states there.
+    fn arrive(&mut self, t: f64) -> Result<Vec<Vec<Slope>>, String> {
         while let StateSlopes::Dynamics(motion) = &mut self.course {
             match motion.corner().filter(|corner| *corner <= t) {
                 Some(corner) => self.turn(corner)?,
                 None => break,
             }
         }
-        let states = self.states(t)?;
-        self.row(t, states, &[])
+        self.states(t)
+    }
+
+    /// The measures and the functions of triggers at a state, with the derivatives of the energies there.
+    fn whole_row(
+        &mut self,
+        t: f64,
+        states: Vec<Vec<Slope>>,
+        triggers: &[Trigger],
+    ) -> Result<SlopeRow, String> {
+        if !self.dissipation.forces.is_empty() {
+            let powers = self.row(t, states.clone(), triggers)?.values;
+            self.dissipation.hold_time(&powers);
+        }
+        self.row(t, states, triggers)
     }
 
     /// The state at the end of the motion with its whole derivatives, in blocks of variables, and the derivatives of
@@ -189,7 +202,7 @@ impl<'a> Reader<'a> {
         let (begun, start) = motion.since();
         let (n_y, start) = (self.model.layout.n_y(), start.to_vec());
         let first = self.over_time(begun, &start[..n_y], (true, &triggers))?;
-        let mut before = self.row(t, states, &triggers)?;
+        let mut before = self.whole_row(t, states, &triggers)?;
         let StateSlopes::Dynamics(motion) = &self.course else { return Ok(()) };
         let (own, since, mut times) = (self.measures.len(), t - begun, Vec::new());
         for (k, trigger) in triggers.iter().enumerate() {
@@ -210,18 +223,12 @@ impl<'a> Reader<'a> {
         let StateSlopes::Dynamics(motion) = &mut self.course else { return Ok(()) };
         motion.turn(&late)?;
         self.follow();
+        self.dissipation.turn(&before.values, &late);
         let states = self.states(t)?;
-        let after = self.row(t, states.clone(), &[])?;
+        let after = self.whole_row(t, states, &[])?;
         before.slopes.truncate(self.measures.len());
         before.values.truncate(self.measures.len());
-        let mut corner = Corner { late, names, sides: [before, after] };
-        if !self.dissipation.forces.is_empty() {
-            for (side, sign) in corner.sides.iter().zip([1.0, -1.0]) {
-                self.dissipation.move_by(&side.values, &corner.late, sign);
-            }
-            corner.sides[1] = self.row(t, states, &[])?;
-        }
-        self.corners.push(corner);
+        self.corners.push(Corner { late, names, sides: [before, after] });
         Ok(())
     }
 
@@ -279,11 +286,13 @@ impl<'a> Reader<'a> {
         }
         let values = self.over_time(t, &values, (solves, triggers))?;
         let all = ABREAST * states.len();
-        let (count, error) = match &self.course {
-            StateSlopes::Dynamics(motion) => (motion.count(), motion.error(&states)),
-            StateSlopes::Driven(..) => (all, 0.0),
+        let (count, error, late) = match &mut self.course {
+            StateSlopes::Dynamics(motion) => {
+                (motion.count(), motion.error(&states), motion.ode().late.clone())
+            }
+            StateSlopes::Driven(..) => (all, 0.0, vec![0.0; all]),
         };
-        Ok(SlopeRow { t, slopes, values, variables: [all, count], error })
+        Ok(SlopeRow { t, slopes, values, late, variables: [all, count], error })
     }
 
     /// The measures and their derivatives by the time.
@@ -358,30 +367,6 @@ impl SlopeRow {
 
 fn touches(name: &str, t: f64) -> String {
     format!("{name} only touches its limit at t = {t:.6} s")
-}
-
-/// The derivatives of a time at which one thing or more change, by variables with some magnitudes.
-///
-/// # Errors
-/// The changes do not stay together.
-fn agreed(t: f64, times: &[(&str, Vec<f64>)], sizes: &[f64]) -> Result<Vec<f64>, String> {
-    let (name, late) = &times[0];
-    let effects = |of: &[f64]| {
-        of.iter().zip(sizes).fold(0.0_f64, |most, (x, size)| most.max((x * size).abs()))
-    };
-    for (other, own) in &times[1..] {
-        let floor = ROUNDED * effects(late).max(effects(own));
-        let differ = |((a, b), size): ((&f64, &f64), &f64)| {
-            let most = (TOGETHER * a.abs().max(b.abs())).max(floor / size);
-            (a - b).abs() > most || (a - b).is_nan()
-        };
-        if late.iter().zip(own).zip(sizes).any(differ) {
-            return Err(format!(
-                "{name} and {other} happen together at t = {t:.6} s, and their order may change"
-            ));
-        }
-    }
-    Ok(late.clone())
 }
 
 /// The measures and the functions of triggers at a state whose accelerations and multipliers are known.

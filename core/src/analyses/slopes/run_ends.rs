@@ -7,6 +7,10 @@ use crate::analyses::AnyAnalysis;
 use crate::math::Listed;
 use crate::model::{column_scales, usual_energy, Model, WORKS};
 
+/// Error of a coordinate, relative to the size of the mechanism or to a radian, above which derivatives are doubtful. Where
+/// errors grow, those of derivatives are about ten times as large.
+pub(super) const DOUBTFUL: f64 = 1e-4;
+
 /// A state within a driven run.
 pub(super) fn state_at(
     whole: &PreparedModel,
@@ -103,4 +107,10 @@ pub(super) fn last_state(model: &Model, run: &Run) -> Vec<f64> {
         row(&of.works, layout.n_works),
     ];
     parts.concat()
+}
+
+/// The largest distance of the coordinates of two states, relative to their scales.
+pub(super) fn distance(one: &[f64], other: &[f64], scales: &[f64]) -> f64 {
+    let each = one.iter().zip(other).zip(scales);
+    each.map(|((a, b), scale)| (a - b).abs() / scale).fold(0.0, f64::max)
 }

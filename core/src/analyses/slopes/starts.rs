@@ -117,3 +117,9 @@ pub(super) fn with_interpolant(analysis: &AnyAnalysis) -> AnyAnalysis {
         other => other.clone(),
     }
 }
+
+/// A start as one row: q, v and z.
+pub(super) fn joined(start: StartSlopes) -> Vec<Slope> {
+    let [q, v, z] = start;
+    q.into_iter().chain(v).chain(z).list()
+}

@@ -1,6 +1,7 @@
 //! Statistics of measures with derivatives.
 
 use super::reader::{Corner, Reader, SlopeRow};
+use super::run_ends::DOUBTFUL;
 use crate::analyses::statistics::{Extreme, Integrals, BAND, RIVAL};
 use crate::analyses::sweep::{Series, Statistic};
 use crate::math::{Listed, Ordered, ShortArray};
@@ -10,9 +11,8 @@ const BESIDE: f64 = 1.0 / 32.0;
 /// Accuracy of the time of an extreme value, in steps of the run.
 const SEARCHED: f64 = 1e-4;
 
-/// Error of a coordinate, relative to the size of the mechanism or to a radian, above which derivatives are doubtful, and
-/// from which they do not belong to the motion. Where errors grow, those of derivatives are about ten times as large.
-pub(super) const DOUBTFUL: f64 = 1e-4;
+/// Error of a coordinate, relative to the size of the mechanism or to a radian, from which derivatives do not belong to the
+/// motion.
 const LOST: f64 = 1.0;
 
 /// The derivatives of a number by each variable, or the reason for which there are none.
@@ -219,7 +219,7 @@ pub(super) struct SlopeRows {
 }
 
 impl Corner {
-    fn t(&self) -> f64 {
+    pub(super) fn t(&self) -> f64 {
         self.sides[0].t
     }
 
@@ -276,6 +276,7 @@ impl SlopeRows {
         let sides = corners.iter_mut().flat_map(|corner| &mut corner.sides);
         for row in rows.iter_mut().chain(sides) {
             row.slopes.iter_mut().for_each(|of| of.truncate(variables));
+            row.late.truncate(variables);
         }
         corners.iter_mut().for_each(|corner| corner.late.truncate(variables));
         let span = (0..reader.measures.len())
@@ -315,6 +316,12 @@ impl SlopeRows {
     pub(super) fn corner(&self, t: f64) -> Option<&Corner> {
         let place = self.corners.partition_point(|corner| corner.t() < t);
         self.corners.get(place).filter(|corner| corner.t() == t)
+    }
+
+    /// The last change of the motion up to a time.
+    pub(super) fn last_corner(&self, t: f64) -> Option<&Corner> {
+        let after = self.corners.partition_point(|corner| corner.t() <= t);
+        after.checked_sub(1).map(|k| &self.corners[k])
     }
 
     /// Why derivatives of a number that is read up to a time are inaccurate, if they are.

@@ -9,9 +9,10 @@ use crate::solve::Breakdown;
 /// Largest number of steps.
 const MOST: usize = 1_000_000;
 
-/// Least relative tolerance of the implicit method. Its error of order 5 is far below the estimate of order 3, and below
-/// this tolerance the estimate has rounding errors.
+/// Least relative tolerance of the implicit method, below which its estimate has rounding errors, and the factor on the
+/// tolerance of the explicit one. Its error of order 5 is far below the estimate of order 3.
 const LEAST: f64 = 1e-10;
+const LOOSER: f64 = 4.0;
 
 /// Integrates the motion with its derivatives.
 pub(super) struct SlopeStepper {
@@ -125,7 +126,7 @@ impl SlopeStepper {
         if let Some(implicit) = &mut self.implicit {
             return implicit.restart_until(span.0, &y, span.1);
         }
-        let rtol = self.control.rtol.max(LEAST);
+        let rtol = (LOOSER * self.control.rtol).max(LEAST);
         let mut control = StepControl { rtol, first_step: Some(first), ..self.control.clone() };
         if let Atol::Each(atol) = &mut control.atol {
             *atol = ode.columns.in_parts(atol);

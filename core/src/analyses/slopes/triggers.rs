@@ -10,6 +10,11 @@ use crate::equations::switches;
 use crate::math::{Listed, Real};
 use crate::model::Model;
 
+/// Part of a derivative by which two derivatives of one time may differ.
+const TOGETHER: f64 = 1e-9;
+/// Part of the largest effect of a variable on a time below which an effect counts as a rounding error.
+const ROUNDED: f64 = 1e-12;
+
 /// The place of the event of a hit among the events of a contact.
 const HIT: usize = 0;
 
@@ -94,4 +99,32 @@ impl Trigger {
             }
         }
     }
+}
+
+/// The derivatives of a time at which one thing or more change, by variables with some magnitudes.
+///
+/// # Errors
+/// The changes do not stay together.
+pub(super) fn agreed(
+    t: f64,
+    times: &[(&str, Vec<f64>)],
+    sizes: &[f64],
+) -> Result<Vec<f64>, String> {
+    let (name, late) = &times[0];
+    let effects = |of: &[f64]| {
+        of.iter().zip(sizes).fold(0.0_f64, |most, (x, size)| most.max((x * size).abs()))
+    };
+    for (other, own) in &times[1..] {
+        let floor = ROUNDED * effects(late).max(effects(own));
+        let differ = |((a, b), size): ((&f64, &f64), &f64)| {
+            let most = (TOGETHER * a.abs().max(b.abs())).max(floor / size);
+            (a - b).abs() > most || (a - b).is_nan()
+        };
+        if late.iter().zip(own).zip(sizes).any(differ) {
+            return Err(format!(
+                "{name} and {other} happen together at t = {t:.6} s, and their order may change"
+            ));
+        }
+    }
+    Ok(late.clone())
 }
