@@ -288,7 +288,7 @@ impl<E: Presses> Force for E {
             let touch = own.point(at);
             law.switches(at, touch.depth(), out);
             if let Some(sense) = out.get_mut(SWITCHES) {
-                *sense = S::select(-touch.gap, touch.sliding, S::one());
+                *sense = touch.sliding;
             }
         }
     }
