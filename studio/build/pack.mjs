@@ -1,13 +1,14 @@
-// Packs a module of WebAssembly for compression: what belongs together lies together. Operations, local variables,
-// constants, addresses and calls are streams of their own, so that xz finds more in them. src/core/unpack.ts puts the
-// module together again. Numbers are written as short as possible, and hints of alignment, which change nothing, are
-// left out.
+// Packs a module of WebAssembly for compression: what belongs together lies together. Operations, local variables that
+// are read, those that are set, constants, addresses and calls are streams of their own, so that xz finds more in them.
+// src/core/unpack.ts puts the module together again. Numbers are written as short as possible, and hints of alignment,
+// which change nothing, are left out.
 
 /** Streams by name; the first contains everything but the bodies of functions. */
 const STREAMS = [
   "rest",
   "operations",
   "locals",
+  "sets",
   "constants",
   "longs",
   "reals",
@@ -18,7 +19,7 @@ const STREAMS = [
   "types",
   "others",
 ];
-const [, OPERATIONS, LOCALS, CONSTANTS, LONGS, REALS, ADDRESSES, FAR, CALLS, LABELS, TYPES, OTHERS] = STREAMS.keys();
+const [, OPERATIONS, LOCALS, SETS, CONSTANTS, LONGS, REALS, ADDRESSES, FAR, CALLS, LABELS, TYPES, OTHERS] = STREAMS.keys();
 
 /** What follows an operation. Other codes are the number of the stream that has a number. */
 const MANY = -1; // a count, so many numbers and one more
@@ -38,7 +39,8 @@ const FOLLOWING = Object.fromEntries([
   [0x10, [CALLS]],
   [0x11, [TYPES, OTHERS]],
   [0x1c, [LIST]],
-  ...numbered(0x20, 0x22, LOCALS),
+  [0x20, [LOCALS]],
+  ...numbered(0x21, 0x22, SETS),
   ...numbered(0x23, 0x26, OTHERS),
   ...numbered(0x28, 0x3e, HINT, PLACE),
   ...numbered(0x3f, 0x40, OTHERS),
