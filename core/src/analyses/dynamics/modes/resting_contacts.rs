@@ -19,6 +19,12 @@ const ZERO: f64 = 1e-9;
 /// the limit keeps it at rest while forces change a little.
 const PARTS: [f64; 6] = [0.25, 0.5, 0.75, 0.9, 0.99, 0.999];
 
+/// Forces of contacts relative to the largest one. Where one is below the first, but not zero, all contacts press with the
+/// second at least, if they can: a contact that hardly presses has little friction, and its share would have to be found again
+/// at once.
+const HARDLY: f64 = 1e-3;
+const PRESSED: f64 = 0.02;
+
 /// Modes that are tried: None if they contradict their laws.
 pub(super) type Tried<'a> = dyn Fn(Vec<ForceMode>) -> Option<Vec<ForceMode>> + 'a;
 
@@ -29,10 +35,16 @@ pub(super) fn resting(
     all: &[(usize, f64)],
     tried: &Tried<'_>,
 ) -> Option<Vec<ForceMode>> {
-    let found = PARTS.iter().find_map(|part| {
-        Together::of((model, place), free, all, (1, *part), 1.0).filter(Together::rests)
-    })?;
-    tried(found.at_rest(model, place)?)
+    let sharing = |least: f64| {
+        PARTS.iter().find_map(|part| {
+            Together::of((model, place), free, all, (1, *part), (1.0, least))
+                .filter(Together::rests)
+        })
+    };
+    let found = sharing(0.0)?;
+    let pressed = if found.hardly_presses() { sharing(PRESSED) } else { None };
+    let all = pressed.into_iter().chain([found]);
+    { all }.find_map(|found| tried(found.at_rest(model, place)?))
 }
 
 /// The modes of all closed contacts together, if they can be `tried`. Friction begins to slide where it exceeds the limit of
@@ -45,7 +57,9 @@ pub(super) fn together(
 ) -> Option<Vec<ForceMode>> {
     for coefficient in [1, 0] {
         let (mut now, mut left) = (free.to_vec(), all.to_vec());
-        while let Some(found) = Together::of((model, place), &now, &left, (coefficient, 1.0), 0.0) {
+        while let Some(found) =
+            Together::of((model, place), &now, &left, (coefficient, 1.0), (0.0, 0.0))
+        {
             let weakened = found.weakened(model);
             if let Some(modes) = found.in_modes((model, place), tried) {
                 return Some(modes);
@@ -82,13 +96,13 @@ impl<'a> Together<'a> {
     /// None if there is no solution, or no contact among the candidates. All other forces are in the modes `free`.
     /// Friction that may stick has a part of the coefficient at this place among its
     /// [own](crate::elements::ForceElement::coefficients).
-    /// For `separates` see [`Contacts::solve_with`].
+    /// For `separates` see [`Contacts::solve_with`]. All contacts press at least with the force `least`.
     fn of(
         (model, place): (&Model, &StateAt<'_>),
         free: &'a [ForceMode],
         candidates: &'a [(usize, f64)],
         (coefficient, part): (usize, f64),
-        separates: f64,
+        (separates, least): (f64, f64),
     ) -> Option<Self> {
         let is_rigid = |k: &usize| is_contact(model, *k) && !model.forces[*k].is_companion;
         let contacts: Vec<usize> = candidates.iter().map(|(k, _)| *k).filter(is_rigid).list();
@@ -113,7 +127,9 @@ impl<'a> Together<'a> {
         let scale = largest(&onset).max(f64::MIN_POSITIVE);
         let onset: Vec<f64> = onset.iter().map(|x| x / scale).list();
         let none = vec![0.0; forces.len()];
-        let solved = found.solve_with(&onset, &none, &none, separates)?;
+        let given = (0..forces.len()).map(|k| if k < found.normals { least } else { 0.0 }).list();
+        let more = found.solve_with(&found.after(&onset, &given), &given, &none, separates)?;
+        let solved = given.iter().zip(&more).map(|(a, b)| a + b).list();
         let after = found.after(&onset, &solved);
         let most = largest(&solved).max(1.0);
         Some(Self { free, candidates, found, solved, after, scale, most, only_pressing: false })
@@ -128,6 +144,12 @@ impl<'a> Together<'a> {
         let after = self.after[at].abs() / self.most;
         let presses = at >= self.found.normals || !self.only_pressing || self.solved[at] > 0.0;
         presses && after <= ZERO
+    }
+
+    /// Whether the force of a contact is small beside the largest one, but not zero.
+    fn hardly_presses(&self) -> bool {
+        let hardly = |x: &f64| *x > ZERO * self.most && *x < HARDLY * self.most;
+        self.solved[..self.found.normals].iter().any(hardly)
     }
 
     /// Whether all contacts stay closed and all friction sticks.
