@@ -39,16 +39,25 @@ class Pile:
         away = np.array([0.0, 1.0]) if other is None else self.at[one] - self.at[other]
         return f"{one}_{other or 'floor'}", one, other, away / np.linalg.norm(away)
 
-    def model(self, static: float, kinetic: float) -> tuple[kp.Model, dict[str, float]]:
+    def model(
+        self, static: float, kinetic: float, tilts: float = 0
+    ) -> tuple[kp.Model, dict[str, float]]:
         m = kp.Model("pile", gravity=tuple(self.gravity))
-        m.ground.curves(floor={"line": [(20 * self.size, 0), (-20 * self.size, 0)]})
+        floor = {"floor": {"line": [(20 * self.size, 0), (-20 * self.size, 0)]}}
+        if tilts:
+            m.ground.points(O=(0, 0))
+            m.body("table", mass=1, inertia=1, points={"O": (0, 0)}, curves=floor)
+            m.revolute("pivot", "ground.O", "table.O")
+            m.coordinate_driver("tilt", "table.angle", value=f"-{tilts}*t^2")
+        else:
+            m.ground.curves(**floor)
         rim = {"rim": {"circle": (0, 0, self.size)}}
         for name, mass in self.mass.items():
             inertia = 0.5 * mass * self.size**2
             m.body(name, mass=mass, inertia=inertia, points={"C": (0, 0)}, curves=rim)
         laws = {"friction": kinetic, "static": static, "restitution": 0}
         for name, one, other, _ in self.contacts:
-            curve = "ground.floor" if other is None else f"{other}.rim"
+            curve = f"{other}.rim" if other else "table.floor" if tilts else "ground.floor"
             m.contact(name, f"{one}.C", curve, radius=self.size, **laws)
         start = {
             f"{name}.{x}": float(at["xy".index(x)]) for name, at in self.at.items() for x in "xy"
@@ -121,3 +130,24 @@ def test_a_pile_rests_where_its_forces_balance(
             normal, along = sol[f"{name}.force"], sol[f"{name}.tangential"]
             assert np.all(np.abs(along) <= static * least * normal + 1e-9 * weight), name
             assert np.min(normal) > -1e-9 * weight, name
+
+
+@pytest.mark.parametrize(("rows", "factor"), [(2, 2.0), (3, 1.3)] if FULL else [(2, 2.0)])
+def test_a_pile_on_a_table_that_tilts_moves_at_the_angle_of_its_limit(
+    rows: int, factor: float
+) -> None:
+    """The tilt grows so slowly that inertia does not matter, and the shares are found anew."""
+    seed, tilts = rows, 5e-4
+    mu = factor * Pile(rows, 0, 0, seed, SCALES[0]).least()
+    low, high = 0.0, 1.0
+    while high - low > 1e-6:
+        middle = (low + high) / 2
+        holds = Pile(rows, 0, middle, seed, SCALES[0]).balances(mu)
+        low, high = (middle, high) if holds else (low, middle)
+    pile = Pile(rows, 0, 0, seed, SCALES[0])
+    m, at = pile.model(mu, mu, tilts)
+    t_end = float(np.sqrt(1.2 * low / tilts))
+    sol = kp.dynamics(m, kp.assemble(m, set=at), t_end=t_end, output_step=t_end / 200)
+    away = [np.hypot(sol[f"{name}.x"], sol[f"{name}.y"]) for name in pile.at]
+    moved = np.max([np.abs(own - own[0]) for own in away], axis=0) > 1e-6
+    assert tilts * sol.t[np.argmax(moved)] ** 2 == pytest.approx(low, rel=0.03)
