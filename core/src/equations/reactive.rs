@@ -276,8 +276,8 @@ impl<'m, S: Real> Sources<'m, S> {
             }
         }
         let grown = |row: &usize| largest(std::iter::once(solution[first + row]));
-        let most = rows.iter().copied().max_by(|a, b| grown(a).total_cmp(&grown(b)));
-        found.then_some(()).ok_or(most.unwrap_or_default())
+        let most = || rows.iter().copied().max_by(|a, b| grown(a).total_cmp(&grown(b)));
+        found.then_some(()).ok_or_else(|| most().unwrap_or_default())
     }
 }
 

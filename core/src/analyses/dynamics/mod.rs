@@ -108,6 +108,7 @@ pub(in crate::analyses) use massless::undetermined;
 pub use methods::{Auto, Scheme};
 pub use modes::{can_stick, friction_modes};
 pub(in crate::analyses) use modes::{watched_mode, ModeFunction};
+pub(in crate::analyses) use motion_ode::rates;
 pub(in crate::analyses) use newton_matrix::NewtonMatrix;
 pub(in crate::analyses) use no_mass::of_beam;
 pub use options::{most_steps, read, Options, Output, Singularity};

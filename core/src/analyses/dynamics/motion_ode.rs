@@ -268,7 +268,7 @@ impl<'a> MotionOde<'a> {
 
 /// Computes y′ at the state at which the accelerations of a workspace were computed.
 #[inline(always)]
-pub(super) fn rates<S: Real>(
+pub(in crate::analyses) fn rates<S: Real>(
     model: &Model<S>,
     workspace: &Workspace<S>,
     t: S,

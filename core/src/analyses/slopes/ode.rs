@@ -1,7 +1,7 @@
 //! The equations of motion together with their derivatives, as one system of differential equations.
 
 use super::columns::{gather, SlopeColumns};
-use crate::analyses::dynamics::NewtonMatrix;
+use crate::analyses::dynamics::{rates, NewtonMatrix};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::balance::Balance;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
@@ -90,12 +90,7 @@ impl SlopeOde {
         let Self { model, workspace, .. } = self;
         let [q, v, z, _] = model.layout.split(y);
         workspace.react(model, t, [q, v, z])?;
-        let powers = workspace.powers(model, v);
-        let [dq, dv, dz, works] = model.layout.split_mut(dy);
-        dq.copy_from_slice(v);
-        dv.copy_from_slice(workspace.a());
-        workspace.state_rates(model, t, dz);
-        works.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
+        rates(model, workspace, t, v, dy);
         Ok(())
     }
 
