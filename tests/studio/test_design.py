@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from command_line import kempe
 from kempe.model.measure_infos import measure_info
+from quiet import within
 from studio.hands import Hands, run
 from studio.window import Opener, Studio
 from synthesis.test_motion import CRANK, KNOWN
@@ -164,18 +165,22 @@ def test_sizes_do_not_matter(studio: Opener, size: float) -> None:
 def test_five_poses_are_solved_within_a_frame(studio: Opener) -> None:
     one = studio()
     one.load(task(known(5)))
-    times = one.call(
-        """async () => {
-            const all = [];
-            for (let k = 0; k < 30; k += 1) {
-                const before = performance.now();
-                await kempe.synthesis();
-                all.push(performance.now() - before);
-            }
-            return all.sort((a, b) => a - b);
-        }"""
-    )
-    assert times[len(times) // 2] < 16.0, times
+
+    def middle() -> float:
+        times = one.call(
+            """async () => {
+                const all = [];
+                for (let k = 0; k < 30; k += 1) {
+                    const before = performance.now();
+                    await kempe.synthesis();
+                    all.push(performance.now() - before);
+                }
+                return all.sort((a, b) => a - b);
+            }"""
+        )
+        return float(times[len(times) // 2])
+
+    assert within(16.0, middle)
 
 
 def test_what_is_not_possible_is_explained_with_a_remedy(studio: Opener) -> None:

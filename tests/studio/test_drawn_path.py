@@ -9,6 +9,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from command_line import kempe
+from quiet import within
 from studio.hands import Hands, run
 from studio.test_design import same
 from studio.window import Finger, Mouse, Opener, Studio
@@ -109,13 +110,17 @@ def test_a_path_by_mouse_becomes_a_case_that_runs(studio: Opener, tmp_path: Path
 def test_a_drawn_path_has_candidates_at_once(studio: Opener) -> None:
     one = studio()
     begin(one)
-    for line in (TURN, TURN[10:60]):
-        begun = time.monotonic()
-        draw(one, line)
-        drawn = time.monotonic()
-        one.wait(FOUND, 20.0)
-        # two seconds on a core of its own
-        assert time.monotonic() - drawn < 2.0, time.monotonic() - begun
+
+    def longest() -> float:
+        waits = []
+        for line in (TURN, TURN[10:60]):
+            draw(one, line)
+            drawn = time.monotonic()
+            one.wait(FOUND, 20.0)
+            waits.append(time.monotonic() - drawn)
+        return max(waits)
+
+    assert within(2.0, longest)  # on a core of its own
 
 
 def test_a_search_that_is_stopped_is_repeated_by_python(studio: Opener, tmp_path: Path) -> None:

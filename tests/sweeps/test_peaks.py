@@ -7,6 +7,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from house.places import ROOT
+from quiet import within
 from sizes import only_full
 
 STATISTICS = ("max", "min", "peak", "t_max", "t_min")
@@ -86,6 +87,9 @@ def test_a_peak_costs_at_most_three_final_values() -> None:
         kp.sweep(case, {"k": np.linspace(5e5, 2e6, 32)}, [measure], workers=1)
         return time.process_time() - began
 
-    turns = [(spent("C.force.final"), spent("C.force.max")) for _ in range(9)]
-    final, peak = (median(times) for times in zip(*turns, strict=True))
-    assert peak < 3 * final  # 2 without other work on the machine; it was 4.9
+    def ratio() -> float:
+        turns = [(spent("C.force.final"), spent("C.force.max")) for _ in range(9)]
+        final, peak = (median(times) for times in zip(*turns, strict=True))
+        return peak / final
+
+    assert within(3.0, ratio)  # 2.4 without other work on the machine; it was 4.9

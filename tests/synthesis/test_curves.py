@@ -5,6 +5,7 @@ import time
 import kempe as kp
 import numpy as np
 import pytest
+from quiet import within
 from sizes import count
 from synthesis.linkages import Complexes, Floats, FourBar
 from synthesis.test_motion import KNOWN, pins_of
@@ -130,9 +131,13 @@ def test_a_curve_of_many_points_takes_less_than_a_second() -> None:
     crank: Floats = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
     noise = np.random.default_rng(0).normal(size=(60, 2)) @ [0.01, 0.01j]
     places = KNOWN.poses(crank)[0] + noise
-    begin = time.process_time()
-    kp.synthesis.path(points(places))
-    assert time.process_time() - begin < 1.0
+
+    def seconds() -> float:
+        begin = time.process_time()
+        kp.synthesis.path(points(places))
+        return time.process_time() - begin
+
+    assert within(1.0, seconds)
 
 
 def test_a_straight_line_has_four_bars() -> None:
