@@ -376,3 +376,29 @@ def test_a_law_that_uses_positions_has_no_limit() -> None:
     m.coordinate_driver("drive", "b.angle", value="2*a.angle", limit=5)
     with pytest.raises(kp.ModelError, match="uses positions, so that its effort acts on several"):
         kp.assemble(m)
+
+
+def test_a_limit_may_depend_on_a_speed_that_a_brake_holds_at_zero() -> None:
+    """The sign of the speed then has rounding errors only, and |omega| no bend that matters."""
+    m = kp.Model("braked arm", gravity=(0, -115.00630750815647))
+    m.ground.points(O=(0, 0))
+    long, at = 5.559662869635875, 3.6684345656739937
+    arm = {"mass": 0.07955769973324336, "inertia": 11.74194531920777}
+    m.body("b", **arm, points={"A": (-long, 0), "E": (long, 0)})
+    mass, inertia = 0.08581509319134406, 8.890295102732253
+    m.body("e", mass=mass, inertia=inertia, points={"A": (-at, 0)})
+    m.revolute("p", "ground.O", "b.A")
+    m.revolute("p2", "b.E", "e.A")
+    limit = "94.32753660502713-22.567646836699343*abs(b.omega)"
+    m.coordinate_driver("drv", "b.angle", value="-0.32362861771748697*t", limit=limit)
+    m.clutch("br", "ground", "b", capacity=24.819986421923364)
+    start = kp.assemble(m, set={"e.angle": -1.3730156874726795, "e.omega": 0})
+    sol = kp.dynamics(m, start, t_end=3.4507153234490042)
+    held = sol.t > sol.events["br.stick"].t[-1]
+    assert held.sum() > 5
+    assert np.all(np.abs(sol["b.omega"][held]) < 1e-9)
+    # the outer body is then a pendulum
+    angle, omega = sol["e.angle"][held], sol["e.omega"][held]
+    fall = mass * 115.00630750815647 * at * np.sin(angle)
+    energy = (inertia + mass * at**2) * omega**2 / 2 + fall
+    assert np.ptp(energy) < 1e-6 * np.abs(fall).max()

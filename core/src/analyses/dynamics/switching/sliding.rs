@@ -1,6 +1,6 @@
 //! Motions that are held at a switch: both pieces return them to the boundary.
 
-use super::{History, Switching};
+use super::{History, Switching, ROUNDING};
 use crate::analyses::dynamics::motion_ode::MotionOde;
 use crate::equations::switches;
 use crate::integrate::{Cause, Ode};
@@ -72,9 +72,16 @@ impl Switching {
             false => 2 * ode.model.layout.n_q,
         };
         let [one, other] = &rates;
+        let kinds = &ode.model.layout.kinds;
+        // coordinates that are held have rates of rounding errors only, relative to those of the others
+        let noise = |i: usize| {
+            let (n, at) = (kinds.len(), 0..kinds.len());
+            let alike = at.filter(|k| i < 2 * n && kinds[*k] == kinds[i % n]);
+            ROUNDING * alike.map(|k| one[i / n * n + k].abs()).fold(0.0, f64::max)
+        };
         let jumps = (0..compared).any(|i| {
             let scale = self.largest[i].max(one[i].abs()).max(other[i].abs());
-            (one[i] - other[i]).abs() > JUMPS * scale && scale > 0.0
+            (one[i] - other[i]).abs() > (JUMPS * scale).max(noise(i)) && scale > 0.0
         });
         if jumps {
             return Err(Cause::Equations { t, error: Breakdown::Sliding(switch) });
