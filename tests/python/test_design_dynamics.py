@@ -168,6 +168,36 @@ def test_the_duty_over_the_angle_and_of_a_torque_element() -> None:
         design.duty(sol, "Q")
 
 
+@pytest.mark.parametrize(
+    ("quarters", "quadrants"), [(1, (4,)), (2, (3, 4)), (3, (2, 3, 4)), (4, (1, 2, 3, 4))]
+)
+def test_every_number_of_the_duty_of_a_rocking_wheel(
+    quarters: int, quadrants: tuple[int, ...]
+) -> None:
+    """The angle sin t and J = 2 kg·m²: the rate is cos t, the effort -2 sin t."""
+    m = kp.Model("wheel")
+    m.ground.points(O=(0, 0))
+    m.body("wheel", mass=1, inertia=2.0, points={"O": (0, 0)})
+    m.revolute("O", "ground.O", "wheel.O")
+    m.coordinate_driver("motor", "wheel.angle", value="sin(t)")
+    end = quarters * np.pi / 2
+    found = design.duty(kp.inverse_dynamics(m, kp.assemble(m), t_end=end), "motor")
+    rate, effort = np.cos(found.t), -2 * np.sin(found.t)
+    assert found.points == pytest.approx(np.column_stack([rate, effort]), abs=1e-8)
+    assert found.power == pytest.approx(rate * effort, abs=1e-8)
+    assert found.quadrants == quadrants
+    braking = -((quarters + 1) // 2)  # ∫ -sin 2t dt is -1 and 1 in turn
+    driving = quarters // 2
+    expected = [driving, braking, driving + braking, (driving + braking) / end]
+    works = [found.driving_work, found.braking_work, found.work, found.mean_power]
+    assert works == pytest.approx(expected, abs=1e-8)
+    assert found.mean == pytest.approx(2 * (np.cos(end) - 1) / end, abs=1e-8)
+    assert found.rms == pytest.approx(np.sqrt(2 - np.sin(2 * end) / end), rel=1e-8)
+    assert found.peak.value == pytest.approx(-2 * np.sin(found.peak.t), abs=1e-8)
+    assert abs(found.peak.value) == pytest.approx(2.0, rel=1e-8)
+    assert abs(found.peak_power.value) == pytest.approx(1.0, rel=1e-8)
+
+
 # --- flywheels ------------------------------------------------------------------------------------
 
 
@@ -194,6 +224,10 @@ def test_a_flywheel_for_a_harmonic_load(k: int, *, over: bool) -> None:
     assert found.inertia == pytest.approx(2 * t1 / k / (share * speed**2), rel=1e-12)
     assert np.ptp(found.stored) == pytest.approx(found.energy, rel=1e-5)
     scale = 1.0 if over else speed
+    angle = k * scale * found.t
+    assert found.torque == pytest.approx(t0 + t1 * np.sin(angle), rel=1e-9)
+    assert found.stored == pytest.approx(t1 / k * (np.cos(angle) - 1.0), abs=1e-9 * t1)
+    assert (found.speed, found.fluctuation) == pytest.approx((speed, share), rel=1e-12)
     # the speed is least after the load was above its mean, where sin kθ falls through 0
     assert np.cos(k * found.slowest * scale) == pytest.approx(-1.0, abs=1e-9)
     assert np.cos(k * found.fastest * scale) == pytest.approx(1.0, abs=1e-9)
