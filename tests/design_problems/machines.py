@@ -2,6 +2,7 @@
 
 import kempe as kp
 import numpy as np
+from scipy.optimize import brentq
 
 #: (mass, size, rate) by which a machine is scaled.
 SCALES = [(1.0, 1.0, 1.0), (1e3, 1e-3, 10.0), (1e-3, 1e3, 0.1), (50.0, 0.2, 30.0)]
@@ -102,6 +103,28 @@ def lamp(mass: float, size: float, g: float, n: int = 45) -> tuple[kp.Case, dict
     return kp.Case(m, {"set": {"arm.angle": -1.0}}, [over]), {"k": exact, "free": 0.0}
 
 
+def absorber(mass: float, size: float, rate: float) -> tuple[kp.Case, dict[str, float], float]:
+    """A pendulum without gravity on a spring with a damper, which stop it within 0.4 rad.
+
+    Also the stiffness, the damping and the torque of the absorber with the least peak. With the
+    damping ratio cos θ and cot = cot θ, the largest angle is rate/ω exp(-θ cot), and the
+    peak of the torque J rate ω exp(-(3 θ - π) cot). Their product is least at 2 sin 2θ = 4 θ - π.
+    """
+    inertia, most = mass * size**2, 0.4
+    theta = brentq(lambda x: 2 * np.sin(2 * x) - 4 * x + np.pi, 1.0, 1.4)
+    cot = 1 / np.tan(theta)
+    omega = rate / most * np.exp(-theta * cot)
+    exact = {"k": inertia * omega**2, "c": 2 * np.cos(theta) * inertia * omega}
+    m = kp.Model("pendulum impact absorber", parameters={"k": 2 * exact["k"], "c": exact["c"]})
+    m.ground.points(O=(0, 0))
+    m.body("pendulum", mass=mass, inertia=inertia, points={"O": (0, 0)})
+    m.revolute("hinge", "ground.O", "pendulum.O")
+    m.torsion_spring("absorber", "ground", "pendulum", stiffness="k", damping="c")
+    start = {"set": {"pendulum.angle": 0, "pendulum.omega": rate}}
+    case = kp.Case(m, start, [kp.Dynamics(t_end=4 * most / rate)])
+    return case, exact, inertia * rate * omega * np.exp(-(3 * theta - np.pi) * cot)
+
+
 def path_generator(first: float, last: float) -> kp.Case:
     """A four-bar linkage over the angle of its crank; names of lengths as in the literature."""
     lengths = {"r1": 14.0, "r2": 2.5, "r3": 13.0, "r4": 13.0, "rcx": 2.0, "rcy": 0.5}
@@ -118,3 +141,19 @@ def path_generator(first: float, last: float) -> kp.Case:
     turn = kp.Kinematics(name="turn", over="crank.angle", range=(first, last), n=25)
     start = {"set": {"crank.angle": first}, "guess": {"coupler.angle": 0.5, "rocker.angle": 1.5}}
     return kp.Case(m, start, [turn])
+
+
+def free_path_generator(**values: float) -> kp.Case:
+    """The same over a whole turn, with a ground that has a free place (x0, y0) and turn."""
+    case = path_generator(0, 2 * np.pi)
+    values = {"x0": 0.0, "y0": 0.0, "turn": 0.0, **values}
+    m = kp.Model("free", parameters=values)
+    m.ground.points(A=("x0", "y0"), D=("x0 + r1*cos(turn)", "y0 + r1*sin(turn)"))
+    m.bar("crank", mass=1, length="r2", ends=("A", "B"))
+    m.bar("rocker", mass=1, length="r4", ends=("D", "C"))
+    points = {"B": (0, 0), "C": ("r3", 0), "P": ("rcx", "rcy")}
+    m.body("coupler", mass=1, inertia=1, points=points)
+    for name, i, j in (("A", "ground", "crank"), ("B", "crank", "coupler"),
+                       ("C", "coupler", "rocker"), ("D", "ground", "rocker")):  # fmt: skip
+        m.revolute(name, f"{i}.{name}", f"{j}.{name}")
+    return kp.Case(m, case._start, case.analyses)

@@ -5,7 +5,15 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
-from design_problems.machines import SCALES, four_bar, lamp, path_generator, slider_crank
+from design_problems.machines import (
+    SCALES,
+    absorber,
+    four_bar,
+    free_path_generator,
+    lamp,
+    path_generator,
+    slider_crank,
+)
 from kempe.sweeps.problems import search
 from sizes import some
 
@@ -17,6 +25,18 @@ def test_counterweights_of_berkof_and_lowen(scale: tuple[float, float, float]) -
     best = kp.optimize(case, bounds, target={"shake_x.rms": 0, "shake_y.rms": 0})
     assert dict(best.values) == pytest.approx(exact, rel=1e-6)
     assert best.success and best.runs < 60
+
+
+@pytest.mark.parametrize("scale", some(SCALES, 2))
+def test_pendulum_impact_absorber(scale: tuple[float, float, float]) -> None:
+    case, exact, peak = absorber(*scale)
+    bounds = {name: (x / 5, x * 5, "log") for name, x in exact.items()}
+    best = kp.optimize(
+        case, bounds, minimize="absorber.torque.peak", subject_to="pendulum.angle.max <= 0.4"
+    )
+    assert dict(best.values) == pytest.approx(exact, rel=1e-6)
+    assert best.objective == pytest.approx(peak, rel=1e-6)
+    assert best.runs < 40 and set(best.active) == {"pendulum.angle.max <= 0.4"}
 
 
 @pytest.mark.parametrize("scale", some(SCALES[::-1], 2))
@@ -37,6 +57,16 @@ def test_balanced_lamp(scale: tuple[float, float, float], method: str | None) ->
     precise = 1e-4 if method == "trust-constr" else 1e-6
     assert best.values["k"] == pytest.approx(exact["k"], rel=precise)
     assert best.values["free"] == pytest.approx(0, abs=precise * scale[1])
+
+
+def test_a_target_of_zero_takes_no_more_runs_than_a_minimum() -> None:
+    """An rms has the shape of a cone at 0, where least squares of it are slow."""
+    case, exact = lamp(1, 1, 9.81, n=9)
+    bounds = {"k": (0, 10 * exact["k"]), "free": (-1, 1)}
+    least = kp.optimize(case, bounds, minimize="over.effort.rms")
+    found = kp.optimize(case, bounds, target={"over.effort.rms": 0})
+    assert found.values["k"] == pytest.approx(exact["k"], rel=1e-6)
+    assert found.runs <= least.runs < 40
 
 
 def test_lamp_by_evolution(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -73,6 +103,35 @@ def closed_form(values: dict[str, float]) -> float:
         place = pin + (values["rcx"] + 1j * values["rcy"]) * turn
         total += abs(place - complex(*point)) ** 2
     return total
+
+
+def test_published_straight_path() -> None:
+    """Problem 1: six points of a line at free, ascending angles; the best possible sum is 0.
+
+    The paper takes 10⁵ to 10⁶ evaluations. From a first guess by hand, 40 runs are enough here.
+    """
+    points = np.array([(20, 20 + 5 * k) for k in range(6)], float)
+    case = free_path_generator(r1=50, r2=15, r3=27, r4=38, rcx=-20, rcy=39, x0=49, y0=18, turn=-0.1)
+    bounds = dict.fromkeys(("r1", "r2", "r3", "r4"), (1, 60)) | {"turn": (-np.pi, np.pi)}
+    bounds |= dict.fromkeys(("rcx", "rcy", "x0", "y0"), (-60, 60))
+
+    def told(runs: int, *_: float) -> None:
+        if runs == 40:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt) as stopped:
+        kp.optimize(
+            case, bounds, minimize=kp.Path(points, of="coupler.P"), subject_to=ORDER, progress=told
+        )
+    best = stopped.value.result  # type: ignore[attr-defined]
+    t = np.linspace(0, 2 * np.pi, 20001)
+    curve = best.case.run()["turn"](t)["coupler"].point("P").position
+    apart = ((curve[:, None] - points) ** 2).sum(axis=2)
+    assert apart.min(axis=0).sum() < 1.5e-4 and 6 * best.objective**2 < 1e-4
+    assert (np.diff(t[apart.argmin(axis=0)]) > 0).all()
+    values = best.values
+    assert values["r2"] <= values["r3"] <= values["r4"] <= values["r1"] <= 60
+    assert values["r1"] + values["r2"] <= values["r3"] + values["r4"]
 
 
 def test_published_path() -> None:
@@ -119,24 +178,12 @@ def test_two_lists_of_places_at_common_angles() -> None:
     """
     first, second = PAIRS[:, :2], PAIRS[:, 2:]
     least = ((first - second) ** 2).sum() / 2
-    lengths = {"r1": 3, "r2": 1, "r3": 2.5, "r4": 2.5, "rcx": 1.5, "rcy": 1.5}
-    case = path_generator(0, 2 * np.pi)
-    free = kp.Model("free", parameters={**lengths, "x0": 0.0, "y0": 0.0, "turn": 0.0})
-    free.ground.points(A=("x0", "y0"), D=("x0 + r1*cos(turn)", "y0 + r1*sin(turn)"))
-    for element in ("crank", "rocker"):
-        ends = ("A", "B") if element == "crank" else ("D", "C")
-        free.bar(element, mass=1, length="r2" if element == "crank" else "r4", ends=ends)
-    points = {"B": (0, 0), "C": ("r3", 0), "P": ("rcx", "rcy")}
-    free.body("coupler", mass=1, inertia=1, points=points)
-    for name, i, j in (("A", "ground", "crank"), ("B", "crank", "coupler"),
-                       ("C", "coupler", "rocker"), ("D", "ground", "rocker")):  # fmt: skip
-        free.revolute(name, f"{i}.{name}", f"{j}.{name}")
+    case = free_path_generator(r1=3, r2=1, r3=2.5, r4=2.5, rcx=1.5, rcy=1.5)
     bounds = dict.fromkeys(("r1", "r2", "r3", "r4"), (0.1, 10))
     bounds |= dict.fromkeys(("rcx", "rcy", "x0", "y0"), (-10, 10)) | {"turn": (-np.pi, np.pi)}
     best = kp.optimize(
-        kp.Case(free, case._start, case.analyses), bounds,
-        minimize=kp.Path((first + second) / 2, of="coupler.P"), subject_to=ORDER,
-    )  # fmt: skip
+        case, bounds, minimize=kp.Path((first + second) / 2, of="coupler.P"), subject_to=ORDER
+    )
     total = 2 * len(PAIRS) * best.objective**2 + least
     assert best.success and best.runs < 200
     assert least < total < least * 1.00005

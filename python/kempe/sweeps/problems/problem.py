@@ -225,8 +225,19 @@ class Problem:
     @property
     def is_square(self) -> bool:
         """Whether the objective is a root of squares, which has a corner at zero."""
+        return not isinstance(self.objective, Formula) or _is_rms(self.objective)
+
+    @property
+    def has_smooth_residuals(self) -> bool:
+        """Whether it is a sum of squares of smooth residuals.
+
+        An rms has the shape of a cone at its target 0. Only its square is smooth.
+        """
         of = self.objective
-        return not isinstance(of, Formula) or (of.columns == [of.text] and of.text.endswith(".rms"))
+        if isinstance(of, Targets):
+            pairs = zip(of.columns, of.values, strict=True)
+            return not any(value == 0.0 and _is_rms(column) for column, value in pairs)
+        return isinstance(of, Path)
 
     def row(self, shares: Floats) -> Floats:
         """The values of the variables at a point of the unit cube."""
@@ -343,3 +354,8 @@ class Problem:
         """The problem with each of its objectives alone."""
         all_of = (self.objective, *self.others)
         return tuple(replace(self, objective=one, others=()) for one in all_of)
+
+
+def _is_rms(of: Formula) -> bool:
+    """Whether a formula is one column that is a root of squares."""
+    return of.columns == [of.text] and of.text.endswith(".rms")

@@ -20,7 +20,6 @@ from kempe.errors import ModelError
 from kempe.sweeps.problems import path as paths
 from kempe.sweeps.problems.asked import MOST_STARTS, asked_of, check_method, problem_of, whole
 from kempe.sweeps.problems.evaluate import Evaluations, Progress, StoppedError
-from kempe.sweeps.problems.formulas import Formula
 from kempe.sweeps.problems.front import MEMBERS, best_of, front
 from kempe.sweeps.problems.optimum import Optimum
 from kempe.sweeps.problems.problem import Problem, Run
@@ -216,7 +215,7 @@ def _method(runs: Evaluations, points: Sequence[Floats]) -> str:
             break
     if found and not any(found):
         return "differential-evolution"
-    is_squares = not isinstance(problem.objective, Formula) and not problem.limits
+    is_squares = problem.has_smooth_residuals and not problem.limits
     return "least-squares" if is_squares else "slsqp"
 
 

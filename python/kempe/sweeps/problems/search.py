@@ -105,7 +105,7 @@ class Search:
         if first.reason:
             return None
         solve = {"least-squares": self._squares, "slsqp": self._slsqp}.get(self.method, self._trust)
-        if len(first.residuals[0]) and self.method == "slsqp":
+        if self.problem.has_smooth_residuals and self.method == "slsqp":
             self._rounds(self._squares)  # SLSQP does not use that they are squares
         self._rounds(solve)
         return self.best
