@@ -96,7 +96,13 @@ TESTS = {
         "tests/python/test_pin_loads.py",
         "tests/python/test_driven_or_not.py",
         "tests/python/test_motor.py",
+        "tests/cams",
+        "tests/synthesis/test_balance.py",
+        "tests/synthesis/test_gear_train.py",
     ),
+    "sweeps/problems": ("tests/design_problems",),
+    "sweeps/fits": ("tests/fits",),
+    "synthesis": ("tests/synthesis",),
 }
 #: A mutant is killed if its tests take this many times as long as before, and some seconds.
 _PATIENCE, _GRACE = 4.0, 20.0
@@ -195,7 +201,7 @@ def _nearest(module: str, mutant: MutationSpec) -> list[str]:
 
 def _mutants(path: Path) -> list[MutationSpec]:
     """All mutants of a module but those of annotations, which nothing evaluates."""
-    files = [path] if path.is_file() else sorted(path.glob("*.py"))
+    files = [path] if path.is_file() else sorted(path.glob(_below(path)))
     database = WorkDB(":memory:", WorkDB.Mode.create)
     init(files, database, {})
     silent = {file: _annotations(file) for file in files}
@@ -205,6 +211,12 @@ def _mutants(path: Path) -> list[MutationSpec]:
         for mutant in item.mutations
         if not any(a <= mutant.start_pos <= b for a, b in silent[mutant.module_path])
     ]
+
+
+def _below(path: Path) -> str:
+    """The files of a module: those of its subfolders too, unless these are modules of their own."""
+    own = str(path.relative_to("python/kempe"))
+    return "*.py" if any(name.startswith(f"{own}/") for name in TESTS) else "**/*.py"
 
 
 def _annotations(path: Path) -> list[tuple[tuple[int, int], tuple[int, int]]]:
