@@ -19,7 +19,8 @@ const STREAMS = [
   "types",
   "others",
 ];
-const [, OPERATIONS, LOCALS, SETS, CONSTANTS, LONGS, REALS, ADDRESSES, FAR, CALLS, LABELS, TYPES, OTHERS] = STREAMS.keys();
+const [, OPERATIONS, LOCALS, SETS, CONSTANTS, LONGS, REALS, ADDRESSES, FAR, CALLS, LABELS, TYPES, OTHERS] =
+  STREAMS.keys();
 
 /** What follows an operation. Other codes are the number of the stream that has a number. */
 const MANY = -1; // a count, so many numbers and one more
