@@ -368,6 +368,9 @@ class States:
     def not_unique(self) -> list[str]:
         """The joints and drivers without a unique reaction at one of the states."""
 
+    def shared(self) -> set[str]:
+        """Joints, drivers and forces whose loads contacts and friction at rest share."""
+
     def measure(self, text: str) -> _F:
         """The values of a measure, (n_t,), from accelerations and multipliers if it needs them."""
 

@@ -162,4 +162,4 @@ def test_a_force_from_a_reaction_reads_its_joint() -> None:
     m.body("block", mass=1, inertia=1, points={"P": (0, 0)})
     m.translational("guide", "ground.O", "block.P")
     m.friction("rub", "guide", kinetic=0.2)
-    assert remarks.read_by(m.compile(), ["rub.power"]) == {"guide"}
+    assert remarks.read_by(m.compile(), ["rub.power"]) == {"guide", "rub"}

@@ -7,7 +7,7 @@ use crate::model::{stretches, PyModel, WrittenMode};
 use crate::names::{constraint, force, frame_named, one_of, unknown};
 use crate::respond::{energies, missing, responses, Table};
 use kempe::analyses::dynamics::{self as core, friction_modes};
-use kempe::analyses::{not_unique, NotUnique};
+use kempe::analyses::{not_unique, shared, NotUnique};
 use kempe::elements::{BodyId, Mode};
 use kempe::equations::actions::{self, each_action};
 use kempe::equations::constraints;
@@ -384,6 +384,17 @@ impl PyStates {
                 all.into_iter().map(|k| active.constraints[k].name.clone()).collect()
             };
             Ok([names(|one| &one.redundant), names(|one| &one.second_order)])
+        })
+    }
+
+    /// The names of joints, drivers and forces whose loads contacts and friction at rest share at one of the states.
+    fn shared(&self) -> PyResult<BTreeSet<String>> {
+        guard("States.shared", || {
+            let (marked, released) = (self.compiled(), &self.model.get().setting().released);
+            let open = marked.without(released);
+            let (n, modes) = (open.layout.n_q, &marked.blueprint.modes);
+            let at = |(k, t): (usize, &f64)| shared(&open, modes, *t, &self.q[k * n..(k + 1) * n]);
+            Ok(self.t.iter().enumerate().flat_map(at).collect())
         })
     }
 

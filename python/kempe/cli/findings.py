@@ -69,8 +69,12 @@ def _show_peaks(console: Console, peaks: dict[str, Any], over: Variable) -> None
     if forces:
         heading(console, "Largest forces")
         header, cells = _columns(forces, at)
-        rows = [(f["name"], f["on"], *row, _parts(f)) for f, row in zip(forces, cells, strict=True)]
+        names = ((starred(f["name"], unique=f["unique"]), f["on"]) for f in forces)
+        last = (_parts(f) for f in forces)
+        rows = [(*a, *row, b) for a, row, b in zip(names, cells, last, strict=True)]
         table(console, ("force", "on", *header, _header("torque of parts", "N*m")), rows, left=2)
+        for line in not_unique({f["name"]: f["choice"] for f in forces}):
+            console.print(Text(f"  {line}"))
 
 
 def _show_remarks(

@@ -81,7 +81,7 @@ def motion(name: str, solution: Solution) -> Section:
             Section("Motion", [*figures.named("motion"), *_velocities(solution, figures)]),
             Section("Events", [_events(told)]),
             Section("Settling", [_settling(told)] if solution.variable.is_time else []),
-            Section("Forces", [_forces(told), *figures.beginning("torque_")]),
+            Section("Forces", [*_forces(told), *figures.beginning("torque_")]),
             Section("Reactions", _reactions(solution, told, figures)),
             Section("Measures", [*_measures(told), *figures.beginning("measure_")]),
             Section("Design", _design(solution, figures)),
@@ -122,15 +122,17 @@ def _settling(told: Told) -> Table:
     return Table(caption, header, rows)
 
 
-def _forces(told: Told) -> Table:
+def _forces(told: Told) -> list[Block]:
     peaks = told.peaks("forces")
     header, cells = _peaks(told, peaks)
     rows = []
     for of, row in zip(peaks, cells, strict=True):
         parts = (f"{part} {number(v, 'N*m').text}" for part, v in of["torque_by_part"].items())
-        rows.append((of["name"], of["on"], *row, ", ".join(parts)))
+        name = starred(of["name"], unique=of["unique"])
+        rows.append((name, of["on"], *row, ", ".join(parts)))
     last = f"largest torque of parts / {display('N*m').symbol}"
-    return Table("Largest forces and torques", ("force", "on", *header, last), rows)
+    table = Table("Largest forces and torques", ("force", "on", *header, last), rows)
+    return [table, *_not_unique(peaks, "name", "forces")]
 
 
 def _reactions(solution: Solution, told: Told, figures: Figures) -> list[Block]:
@@ -153,14 +155,19 @@ def _remarks(
     ``counted``: which numbers include values without bound, in words.
     """
     of = "reactions of" if key == "joint" else "reactions in the measures"
-    for _, meaning, names in by_choice({row[key]: row["choice"] for row in rows}):
-        yield Paragraph(f"* The {of} {few(names)} are not unique, {meaning}.", warning=True)
+    yield from _not_unique(rows, key, of)
     unbounded = [row[key] for row in rows if row["unbounded_at"]]
     if unbounded:
         times = sorted({t for row in rows for t in row["unbounded_at"]})
         passed = f"singular positions ({when(times, told.variable, told.place)})"
         told_of = f"have no bound at {passed}, {counted}"
         yield Paragraph(f"The {of} {few(unbounded)} {told_of}.", warning=True)
+
+
+def _not_unique(rows: Sequence[Mapping[str, Any]], key: str, of: str) -> Iterator[Paragraph]:
+    """What the stars beside the names of rows mean."""
+    for _, meaning, names in by_choice({row[key]: row["choice"] for row in rows}):
+        yield Paragraph(f"* The {of} {few(names)} are not unique, {meaning}.", warning=True)
 
 
 def _peaks(told: Told, peaks: Sequence[Mapping[str, Any]]) -> tuple[list[str], list[list[Cell]]]:

@@ -19,7 +19,8 @@ from kempe.results import friction_at_rest, quantities
 from kempe.results.newton_euler import NewtonEuler, newton_euler
 from kempe.results.phases import Phases
 from kempe.results.redundant import redundant
-from kempe.results.remarks import LEFT_OUT, MIDDLE, MINIMUM_NORM, together
+from kempe.results.remarks import LEFT_OUT, MIDDLE, MINIMUM_NORM, ONE_SHARE, together
+from kempe.results.shared import shared as shared_at_rest
 from kempe.results.variable import TIME, Variable
 from kempe.results.views.beam import BeamView
 from kempe.results.views.body import BodyView
@@ -172,20 +173,25 @@ class Motion:
 
     @property
     def not_unique(self) -> frozenset[str]:
-        """Joints and drivers without a unique reaction; see ``ConstraintView.unique``."""
+        """Joints, drivers and forces without unique loads; see ``ConstraintView.unique``."""
         return frozenset(self.choices)
 
     @cached_property
     def choices(self) -> Mapping[str, str]:
-        """Joints and drivers without a unique reaction, and which of the possible ones is given.
+        """Joints, drivers and forces without unique loads, and which of the possible ones is given.
 
-        It is "minimum norm", "second-order load left out", "middle of friction at rest" or several
-        of them; see ``ConstraintView.unique``.
+        It is "minimum norm", "second-order load left out", "middle of friction at rest", "one way
+        to share the load" or several of them; see ``ConstraintView.unique``.
         """
         shared, kept = redundant(self)
-        own = {MINIMUM_NORM: shared, LEFT_OUT: kept, MIDDLE: friction_at_rest.joints(self)}
+        own = {
+            MINIMUM_NORM: shared,
+            LEFT_OUT: kept,
+            MIDDLE: friction_at_rest.joints(self),
+            ONE_SHARE: shared_at_rest(self, self._decided),
+        }
         found = frozenset().union(*own.values())
-        names = (name for name in self.compiled.constraints if name in found)
+        names = (n for n in (*self.compiled.constraints, *self.compiled.forces) if n in found)
         return MappingProxyType(
             {name: together(one for one, of in own.items() if name in of) for name in names}
         )

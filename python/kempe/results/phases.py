@@ -35,8 +35,12 @@ class PhaseModels:
 
     def __getitem__(self, phase: int) -> CompiledModel:
         if phase not in self._made:
-            self._made[phase] = self._base.variant(self._settings[phase][1])
+            self._made[phase] = self._base.variant(self.setting(phase))
         return self._made[phase]
+
+    def setting(self, phase: int) -> Setting:
+        """The parameters, released drivers and modes of a phase."""
+        return self._settings[phase][1]
 
 
 class Phases:

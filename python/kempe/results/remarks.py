@@ -4,7 +4,8 @@ Redundant constraints do not determine the reactions of the joints that take par
 then the smallest ones that carry the loads. Joints that keep a coordinate only to second order
 would need infinite forces for a load along it, which their values leave out. Friction that drivers
 hold at rest may carry any part of the load up to its limit; the values are then the middle of their
-interval. A run can also pass a singular position beside which a reaction has no bound. Tables,
+interval. Contacts and friction at rest may share a load in more than one way; the values are then
+one of these ways. A run can also pass a singular position beside which a reaction has no bound. Tables,
 files and figures state this beside the values, and so they do for measures and other results that
 read such a joint or driver.
 """
@@ -26,7 +27,7 @@ from kempe.results.variable import TIME, Variable
 if TYPE_CHECKING:
     from kempe.base.arrays import Floats
     from kempe.model.compiled import CompiledModel
-    from kempe.model.infos import ConstraintInfo
+    from kempe.model.infos import ConstraintInfo, ForceInfo
     from kempe.model.measure_infos import MeasureInfo
     from kempe.results.motion import Motion
 
@@ -34,12 +35,15 @@ if TYPE_CHECKING:
 MINIMUM_NORM = "minimum norm"
 LEFT_OUT = "second-order load left out"
 MIDDLE = "middle of friction at rest"
+ONE_SHARE = "one way to share the load"
 #: What they mean, behind "not unique".
 _MEANING = {
     MINIMUM_NORM: f"of the smallest multipliers ({MINIMUM_NORM})",
     LEFT_OUT: "the load along a coordinate kept only to second order is left out: it would need "
     "infinite forces",
     MIDDLE: "friction at rest may have any value in an interval, whose middle is given",
+    ONE_SHARE: "contacts and friction at rest can share the load in several ways; one of them is "
+    "given",
 }
 #: Times closer than this fraction of the motion belong to one position.
 _SAME_TIME = 1e-3
@@ -47,16 +51,18 @@ _SAME_TIME = 1e-3
 _NOTHING = 1e-9
 #: Units of measures that are forces or torques.
 _FORCES = ("N", "N*m")
+#: Units of results of force elements that change with their forces.
+_LOADS = (*_FORCES, "Pa")
 
 #: For each motion, the times that are known of a joint or driver and a part of its reaction.
 _known: WeakKeyDictionary[Motion, dict[tuple[str, str], list[float]]] = WeakKeyDictionary()
 
 
 def read_by(model: CompiledModel, names: Iterable[str]) -> frozenset[str]:
-    """The joints and drivers whose multipliers enter into quantities or measures.
+    """The joints, drivers and forces whose loads enter into quantities or measures.
 
     Positions and rates of a joint or driver do not depend on its multipliers. A force element that
-    follows from a reaction, such as friction, reads the joint of this reaction.
+    follows from a reaction, such as friction, also reads the joint of this reaction.
     """
     found: set[str] = set()
     for name in names:
@@ -67,9 +73,17 @@ def read_by(model: CompiledModel, names: Iterable[str]) -> frozenset[str]:
             if quantity not in _positions(model.constraints[owner]):
                 found.add(owner)
         elif owner in model.forces and model.forces[owner].reads_multipliers:
-            joint = model.forces[owner].reaction
-            found |= set(model.constraints) if joint is None else {joint}
+            info = model.forces[owner]
+            found |= set(model.constraints) if info.reaction is None else {info.reaction}
+            if quantity not in _unloaded(info):
+                found.add(owner)
     return frozenset(found)
+
+
+def _unloaded(info: ForceInfo) -> set[str]:
+    """The quantities of a force element that do not depend on its forces."""
+    results = {name for name, unit in info.results if unit not in _LOADS}
+    return results | {name for of in info.measured for name in of.names if name}
 
 
 def _positions(info: ConstraintInfo) -> set[str]:

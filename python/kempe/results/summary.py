@@ -146,6 +146,8 @@ def force(sampled: Sampled, name: str) -> dict[str, Any]:
         "torque": torque.value,
         "torque_at": torque.t,
         "torque_by_part": parts,
+        "unique": not (choice := sampled.solution.choices.get(name, "")),
+        "choice": choice,
     }
 
 

@@ -17,6 +17,7 @@ from kempe.results.remarks import (
     LEFT_OUT,
     MIDDLE,
     MINIMUM_NORM,
+    ONE_SHARE,
     choice_of,
     remark_of_variants,
     together,
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from kempe.sweeps.result import SweepResult
 
 #: The bits of a mark: the choices of values that are not unique, and values without bound.
-_BIT = {MINIMUM_NORM: 1, MIDDLE: 4, LEFT_OUT: 8}
+_BIT = {MINIMUM_NORM: 1, MIDDLE: 4, LEFT_OUT: 8, ONE_SHARE: 16}
 NO_BOUND = 2
 #: The statistic that singular positions before the end of a run do not affect.
 _AT_THE_END = "final"

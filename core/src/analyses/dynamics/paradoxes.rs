@@ -5,10 +5,14 @@ use super::modes::{self, Settled, StateAt, Uniqueness};
 use super::run::{PhaseEnd, Progress};
 use super::run_results::Run;
 use super::setting::Setting;
+use crate::analyses::uniqueness::shared;
 use crate::elements::Mode;
 use crate::math::Listed;
-use crate::model::{ForceMode, Model};
+use crate::model::Model;
 use serde::{Deserialize, Serialize};
+
+/// The most names in a note.
+const FEW: usize = 3;
 
 /// The contacts at which a paradox ended a phase, and what was reported.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -60,7 +64,7 @@ impl Paradoxes {
     }
 
     /// Adds what a user has to know about the motion that follows at time `t`. Each kind is reported once.
-    pub fn tell(&mut self, model: &Model, t: f64, settled: &Settled, run: &mut Run) {
+    pub fn tell(&mut self, (model, q): (&Model, &[f64]), t: f64, settled: &Settled, run: &mut Run) {
         let name = |k: usize| &model.forces[k].name;
         let jam = settled.jammed.first();
         if let Some(k) = jam.filter(|_| !std::mem::replace(&mut self.told[0], true)) {
@@ -70,13 +74,17 @@ impl Paradoxes {
                 name(*k)
             ));
         }
-        let shares = |own: &&ForceMode| matches!(own.mode, Mode::Carries(_) | Mode::Follows { .. });
-        let shared = settled.modes.iter().find(shares);
-        if let Some(own) = shared.filter(|_| !std::mem::replace(&mut self.told[3], true)) {
+        let asked = !self.told[3];
+        let mut names = if asked { shared(model, &settled.modes, t, q) } else { Vec::new() };
+        if !names.is_empty() {
+            self.told[3] = true;
+            let more = names.len().saturating_sub(FEW);
+            names.truncate(FEW);
+            let names = names.join(", ");
+            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
             run.notes.push(format!(
-                "from t = {t:.6} s on, the forces of {} and of other friction at rest are not unique: they are shared in one of \
-                 several ways, each within its limits",
-                name(own.force)
+                "from t = {t:.6} s on, the forces of {names}{more} are not unique: contacts and friction at rest share the \
+                 load in one of several ways, each within its limits"
             ));
         }
         match settled.uniqueness {

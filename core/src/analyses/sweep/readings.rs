@@ -6,7 +6,7 @@ use crate::analyses::statistics::row_norms;
 use crate::elements::Mode;
 use crate::integrate::Flow;
 use crate::math::{Listed, ShortArray};
-use crate::model::Model;
+use crate::model::{ForceMode, Model};
 use std::cell::OnceCell;
 use std::sync::Arc;
 
@@ -59,20 +59,20 @@ impl<'a> Readings<'a> {
     /// The readings of a run of a model, `rests` if the mechanism is at rest at each value over which it runs.
     ///
     /// # Errors
-    /// [`Missing::Single`] if drivers hold friction at rest in a phase, because such forces have a mark.
+    /// [`Missing::Single`] if drivers hold friction at rest in a phase, or if contacts and friction share their loads,
+    /// because such forces have a mark.
     pub fn new(
         whole: &Arc<PreparedModel>,
         run: &'a Run,
         rests: bool,
         grid: Option<(f64, f64)>,
     ) -> Result<Self, Missing> {
+        let shares = |of: &ForceMode| of.mode.holds() && !matches!(of.mode, Mode::Holds(_));
         let mut phases = Vec::new();
         for k in 0..run.phases.len() {
             let prepared = match run.settings.get(k).filter(|setting| !setting.is_plain()) {
                 None => Arc::clone(whole),
-                Some(setting) if setting.modes.iter().any(|of| of.mode == Mode::Idle) => {
-                    return Err(Missing::Single)
-                }
+                Some(setting) if setting.modes.iter().any(shares) => return Err(Missing::Single),
                 Some(setting) => {
                     let own = setting.model(whole.model()).map_err(|_| Missing::Single)?;
                     Arc::new(Prepared::new(Arc::new(own)))

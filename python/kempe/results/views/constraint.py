@@ -94,6 +94,9 @@ class ConstraintView(Generic[S]):
 
         While drivers hold friction at rest, it may carry any part of the load up to its limit. The
         values are then those without friction; ``interval`` gives the range.
+
+        Contacts and friction at rest may share a load in several ways. One of them is then given,
+        and joints that take part are marked too.
         """
         return not self.choice
 

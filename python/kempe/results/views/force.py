@@ -47,6 +47,20 @@ class ForceView(Generic[S]):
         """Names of the parts."""
         return self.info.parts
 
+    @property
+    def unique(self) -> bool:
+        """Whether the force is unique.
+
+        Contacts and friction at rest may share a load in several ways. One of them is then given.
+        The first and last state of a phase of the motion are examined.
+        """
+        return not self.choice
+
+    @property
+    def choice(self) -> str:
+        """Which of the possible forces is given; empty if it is unique."""
+        return self._motion.choices.get(self.name, "")
+
     def force(
         self,
         *,
