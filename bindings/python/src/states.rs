@@ -6,8 +6,8 @@ use crate::measures::measure_at;
 use crate::model::{stretches, PyModel, WrittenMode};
 use crate::names::{constraint, force, frame_named, one_of, unknown};
 use crate::respond::{energies, missing, responses, Table};
-use kempe::analyses::dynamics::{self as core, friction_modes};
-use kempe::analyses::{not_unique, shared, NotUnique};
+use kempe::analyses::dynamics::{self as core, friction_modes, shared_loads};
+use kempe::analyses::{not_unique, NotUnique};
 use kempe::elements::{BodyId, Mode};
 use kempe::equations::actions::{self, each_action};
 use kempe::equations::constraints;
@@ -391,9 +391,12 @@ impl PyStates {
     fn shared(&self) -> PyResult<BTreeSet<String>> {
         guard("States.shared", || {
             let (marked, released) = (self.compiled(), &self.model.get().setting().released);
-            let open = marked.without(released);
-            let (n, modes) = (open.layout.n_q, &marked.blueprint.modes);
-            let at = |(k, t): (usize, &f64)| shared(&open, modes, *t, &self.q[k * n..(k + 1) * n]);
+            let open = marked.without(released).marked(&[]);
+            let (n, n_z, modes) = (open.layout.n_q, open.layout.n_z, &marked.blueprint.modes);
+            let at = |(k, t): (usize, &f64)| {
+                let (row, z) = (k * n..(k + 1) * n, &self.z[k * n_z..(k + 1) * n_z]);
+                shared_loads(&open, modes, *t, [&self.q[row.clone()], &self.v[row], z])
+            };
             Ok(self.t.iter().enumerate().flat_map(at).collect())
         })
     }

@@ -56,4 +56,4 @@ pub use results::NoResult;
 pub use second_order::mobility;
 pub use sequence::{chain, check, fields_of, run_after, start_of};
 pub use state::State;
-pub use uniqueness::{not_unique, shared, NotUnique};
+pub use uniqueness::{not_unique, NotUnique};

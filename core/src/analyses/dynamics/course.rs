@@ -294,7 +294,7 @@ impl PhasedRun {
         for (k, of) in &settled.changed {
             run.add_event(&base.layout, index(*k, *of), t, &before);
         }
-        paradoxes.tell((&*open, &before[..base.layout.n_q]), t, &settled, run);
+        paradoxes.tell((&*open, &place), &settled, run);
         setting.modes = settled.modes;
         (passage.impacts, passage.collapsed) = (settled.impacts, settled.collapsed);
         passage.couples |= settled.couples;

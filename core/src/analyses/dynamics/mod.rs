@@ -106,7 +106,7 @@ pub use energies::ENERGIES;
 pub use failure::{Failure, Reason};
 pub(in crate::analyses) use massless::undetermined;
 pub use methods::{Auto, Scheme};
-pub use modes::{can_stick, friction_modes};
+pub use modes::{can_stick, friction_modes, shared_loads};
 pub(in crate::analyses) use modes::{watched_mode, ModeFunction};
 pub(in crate::analyses) use motion_ode::rates;
 pub(in crate::analyses) use newton_matrix::NewtonMatrix;

@@ -5,7 +5,6 @@ use super::modes::{self, Settled, StateAt, Uniqueness};
 use super::run::{PhaseEnd, Progress};
 use super::run_results::Run;
 use super::setting::Setting;
-use crate::analyses::uniqueness::shared;
 use crate::elements::Mode;
 use crate::math::Listed;
 use crate::model::Model;
@@ -63,9 +62,14 @@ impl Paradoxes {
         }
     }
 
-    /// Adds what a user has to know about the motion that follows at time `t`. Each kind is reported once.
-    pub fn tell(&mut self, (model, q): (&Model, &[f64]), t: f64, settled: &Settled, run: &mut Run) {
-        let name = |k: usize| &model.forces[k].name;
+    /// Adds what a user has to know about the motion that follows. Each kind is reported once.
+    pub fn tell(
+        &mut self,
+        (model, place): (&Model, &StateAt<'_>),
+        settled: &Settled,
+        run: &mut Run,
+    ) {
+        let (t, name) = (place.t, |k: usize| &model.forces[k].name);
         let jam = settled.jammed.first();
         if let Some(k) = jam.filter(|_| !std::mem::replace(&mut self.told[0], true)) {
             run.doubts.push(format!(
@@ -75,7 +79,8 @@ impl Paradoxes {
             ));
         }
         let asked = !self.told[3];
-        let mut names = if asked { shared(model, &settled.modes, t, q) } else { Vec::new() };
+        let mut names =
+            if asked { modes::shared_at(model, &settled.modes, place) } else { Vec::new() };
         if !names.is_empty() {
             self.told[3] = true;
             let more = names.len().saturating_sub(FEW);

@@ -15,7 +15,7 @@ pub fn can_stick(model: &Model) -> bool {
     with_modes(model).any(|k| sticks(model, k))
 }
 
-fn sticks(model: &Model, force: usize) -> bool {
+pub(super) fn sticks(model: &Model, force: usize) -> bool {
     let item = &model.forces[force];
     item.mode == Mode::Open && matches!(item.element.behaviour(), Some(Behaviour::Sticks))
 }

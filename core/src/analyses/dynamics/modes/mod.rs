@@ -15,6 +15,7 @@
 //! | `holding` | contacts that rest and friction that sticks |
 //! | `jam` | impacts without collision, which end a friction paradox |
 //! | `resting_contacts` | which of the closed contacts press, from all of them together |
+//! | `shared_loads` | loads that contacts and friction at rest share in more than one way |
 //! | `sliding_contacts` | whether the motion with contacts that slide is unique |
 //! | `taking_part` | the mechanism without the contacts that are apart |
 
@@ -31,6 +32,7 @@ mod mode_events;
 mod phases;
 mod place;
 mod resting_contacts;
+mod shared_loads;
 mod sliding_contacts;
 mod taking_part;
 
@@ -38,6 +40,8 @@ pub use at_rest::{can_stick, friction_modes};
 pub(in crate::analyses) use mode_events::{watched_mode, ModeFunction};
 pub(super) use mode_events::{COLLAPSE, GRAZE};
 pub(super) use place::{has_mode, is_contact, unit as gap_unit, StateAt};
+pub(super) use shared_loads::shared_at;
+pub use shared_loads::shared_loads;
 pub(super) use sliding_contacts::{lost, Uniqueness, MOST};
 pub(super) use taking_part::Settled;
 
