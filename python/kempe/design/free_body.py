@@ -50,8 +50,8 @@ class FreeBody:
         residual: error of Newton's and Euler's equations, relative to the largest force (moment) on
             the body at the instant.
         not_unique: the joints and drivers whose loads are not unique, each with the choice among
-            the possible values: "minimum norm", "second-order load left out" or "middle of
-            friction at rest".
+            the possible values: "minimum norm", "second-order load left out", "middle of
+            friction at rest" or "one way to share the load".
         unbounded_at: times of singular positions of the solution beside which a load has no bound,
             by joint or driver.
     """

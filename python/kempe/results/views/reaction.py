@@ -38,7 +38,8 @@ class Reaction:
         choice: empty if the values are unique. ``minimum norm`` where redundant constraints leave
             them open: they then follow from the smallest multipliers that carry the loads.
             ``second-order load left out`` where the joint keeps a coordinate only to second order,
-            and ``middle of friction at rest`` where drivers hold friction at rest.
+            ``middle of friction at rest`` where drivers hold friction at rest, and ``one way to
+            share the load`` where contacts and friction at rest share it.
     """
 
     joint: str
