@@ -1,4 +1,4 @@
-"""Loads that contacts and friction at rest share in several ways have a star wherever they appear."""
+"""Loads that contacts and friction at rest share in several ways have a star everywhere."""
 
 import io
 import json
@@ -16,7 +16,7 @@ TOLD = "one way to share the load"
 
 
 def beam(feet: list[float], pinned: bool, scale: tuple[float, float]) -> kp.Solution:
-    """A horizontal beam with its centre at 0 on rigid feet without friction, and a pin at its end."""
+    """A beam with its centre at 0 on rigid feet without friction, and a pin at its end."""
     mass, size = scale
     m = kp.Model("beam", gravity=(0, -G))
     m.ground.points(O=(-2 * size, 0))

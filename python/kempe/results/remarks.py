@@ -5,9 +5,9 @@ then the smallest ones that carry the loads. Joints that keep a coordinate only 
 would need infinite forces for a load along it, which their values leave out. Friction that drivers
 hold at rest may carry any part of the load up to its limit; the values are then the middle of their
 interval. Contacts and friction at rest may share a load in more than one way; the values are then
-one of these ways. A run can also pass a singular position beside which a reaction has no bound. Tables,
-files and figures state this beside the values, and so they do for measures and other results that
-read such a joint or driver.
+one of these ways. A run can also pass a singular position beside which a reaction has no bound.
+Tables, files and figures state this beside the values, and so they do for measures and other
+results that read such a joint, driver or force.
 """
 
 from __future__ import annotations

@@ -93,9 +93,9 @@ class SweepResult:
         A remark is ``minimum norm`` if redundant constraints leave a reaction open,
         ``second-order load left out`` if joints keep a coordinate only to second order, ``middle of
         friction at rest`` if drivers hold friction at rest, ``one way to share the load`` if
-        contacts and friction at rest share it, and ``without bound in 2 of 16 variants`` if so many of the variants that succeeded are in ``unbounded``;
-        or both, with a comma. Remarks have no unit. Their source is ``Measure.choice`` and
-        ``Measure.unbounded_at`` of each variant.
+        contacts and friction at rest share it, and ``without bound in 2 of 16 variants`` if so many
+        of the variants that succeeded are in ``unbounded``; or both, with a comma. Remarks have no
+        unit. Their source is ``Measure.choice`` and ``Measure.unbounded_at`` of each variant.
         """
         return remarked.remarks(self)
 
