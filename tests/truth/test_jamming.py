@@ -7,6 +7,7 @@ gyration k. It has no solution for A < 0 and b < 0, and several for A < 0 and b 
 
 from __future__ import annotations
 
+import itertools
 import warnings
 from typing import Any, Literal
 
@@ -214,3 +215,32 @@ def test_a_jam_among_many_closed_contacts_is_named_with_a_remedy() -> None:
     start = kp.assemble(m, set=at)
     with pytest.raises(kp.SingularityError, match=r"contacts touch, c0.*more than 6.*stiffness"):
         kp.dynamics(m, start, t_end=1e-3, jam="impact")
+
+
+@pytest.mark.parametrize("which", ["a", "b"])
+@pytest.mark.parametrize("order", list(itertools.permutations(["block", "a", "b"])))
+def test_a_paradox_names_its_contact_among_others(order: tuple[str, ...], which: str) -> None:
+    """Two rods and a block slide on one floor; one of the rods has too much friction."""
+    for mass, size in SCALES:
+        m = kp.Model("several", gravity=(0, -G))
+        m.ground.curves(floor={"line": ((900 * size, 0), (-900 * size, 0))})
+        speed, at = np.sqrt(G * size), {}
+        for k, name in enumerate(order):
+            x = 10 * k * size
+            if name == "block":
+                feet = {"L": (-size, -0.1 * size), "R": (size, -0.1 * size)}
+                m.body("block", mass=3 * mass, inertia=mass * size**2, points=feet)
+                at |= {"block.x": x, "block.y": 0.1 * size, "block.angle": 0, "block.vx": speed}
+                contacts = {f"foot_{foot}": (f"block.{foot}", 0.3) for foot in feet}
+            else:
+                m.bar(name, mass=mass, length=size, ends=("P", "Q"))
+                at |= {f"{name}.angle": np.pi - 0.9, f"{name}.omega": 0.4 * np.sqrt(G / size)}
+                at |= {f"{name}.P.x": x, f"{name}.P.y": 0}
+                at |= {f"{name}.P.vx": speed, f"{name}.P.vy": 0}
+                contacts = {f"touch_{name}": (f"{name}.P", 1.5 if name == which else 0.4)}
+            for contact, (point, mu) in contacts.items():
+                m.contact(contact, point, "ground.floor", friction=mu, restitution=0)
+        start = kp.assemble(m, set=at)
+        with pytest.raises(kp.SingularityError, match=f"paradox.*contact touch_{which} ") as told:
+            kp.dynamics(m, start, t_end=1e-6 * np.sqrt(size / G))
+        assert told.value.name == f"touch_{which}"
