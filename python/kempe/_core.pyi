@@ -365,11 +365,8 @@ class States:
     def friction_range(self, passing: bool) -> list[_F] | None:
         """The least and the largest multipliers, (n_t, m), while drivers hold friction at rest."""
 
-    def not_unique(self) -> list[str]:
-        """The joints and drivers without a unique reaction at one of the states."""
-
-    def shared(self) -> set[str]:
-        """Joints, drivers and forces whose loads contacts and friction at rest share."""
+    def not_unique(self) -> list[list[str]]:
+        """What has no unique load at a state: redundant, of second order, shared at rest."""
 
     def measure(self, text: str) -> _F:
         """The values of a measure, (n_t,), from accelerations and multipliers if it needs them."""

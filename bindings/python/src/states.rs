@@ -10,19 +10,17 @@ use kempe::analyses::dynamics::{self as core, friction_modes, shared_loads};
 use kempe::analyses::{not_unique, NotUnique};
 use kempe::elements::{BodyId, Mode};
 use kempe::equations::actions::{self, each_action};
-use kempe::equations::constraints;
 use kempe::equations::forces::{self, Acting};
 use kempe::equations::kinematics::Motions;
 use kempe::equations::measured::{measured, offered, ElementId};
 use kempe::equations::newton_euler::balances;
-use kempe::equations::reactions;
+use kempe::equations::{constraints, reactions};
 use kempe::integrate::Flow;
 use kempe::math::Wrench;
 use kempe::model::{ForceMode, Model};
 use kempe::stabilize::Projection;
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use std::collections::BTreeSet;
 
 /// States of a model in rows, with accelerations and multipliers where they are known.
 #[pyclass(name = "States", module = "kempe._core", frozen)]
@@ -371,33 +369,23 @@ impl PyStates {
         })
     }
 
-    /// The names of the joints and drivers without a unique reaction at one of the states: of redundant equations, and
-    /// of equations that hold to second order only.
-    fn not_unique(&self) -> PyResult<[Vec<String>; 2]> {
+    /// The names of what has no unique load at a state: of redundant equations, of second order, and shared at rest.
+    fn not_unique(&self) -> PyResult<[Vec<String>; 3]> {
         guard("States.not_unique", || {
-            let active = &**self.model.get().active.prepared.model();
-            let n = active.layout.n_q;
-            let at = |(k, t): (usize, &f64)| not_unique(active, *t, &self.q[k * n..(k + 1) * n]);
-            let found: Vec<NotUnique> = self.t.iter().enumerate().map(at).collect();
-            let names = |of: fn(&NotUnique) -> &Vec<usize>| {
-                let all: BTreeSet<usize> = found.iter().flat_map(of).copied().collect();
-                all.into_iter().map(|k| active.constraints[k].name.clone()).collect()
-            };
-            Ok([names(|one| &one.redundant), names(|one| &one.second_order)])
-        })
-    }
-
-    /// The names of joints, drivers and forces whose loads contacts and friction at rest share at one of the states.
-    fn shared(&self) -> PyResult<BTreeSet<String>> {
-        guard("States.shared", || {
-            let (marked, released) = (self.compiled(), &self.model.get().setting().released);
-            let open = marked.without(released).marked(&[]);
-            let (n, n_z, modes) = (open.layout.n_q, open.layout.n_z, &marked.blueprint.modes);
-            let at = |(k, t): (usize, &f64)| {
-                let (row, z) = (k * n..(k + 1) * n, &self.z[k * n_z..(k + 1) * n_z]);
-                shared_loads(&open, modes, *t, [&self.q[row.clone()], &self.v[row], z])
-            };
-            Ok(self.t.iter().enumerate().flat_map(at).collect())
+            let (active, marked) = (&**self.model.get().active.prepared.model(), self.compiled());
+            let open = marked.without(&self.model.get().setting().released).marked(&[]);
+            let (n, n_z, mut found) =
+                (open.layout.n_q, open.layout.n_z, <[Vec<String>; 3]>::default());
+            for (k, t) in self.t.iter().enumerate() {
+                let rows = [(&self.q, n), (&self.v, n), (&self.z, n_z)];
+                let [q, v, z] = rows.map(|(all, n)| &all[k * n..(k + 1) * n]);
+                let NotUnique { redundant, second_order } = not_unique(active, *t, q);
+                let name = |k: &usize| active.constraints[*k].name.clone();
+                found[0].extend(redundant.iter().map(name));
+                found[1].extend(second_order.iter().map(name));
+                found[2].extend(shared_loads(&open, &marked.blueprint.modes, *t, [q, v, z]));
+            }
+            Ok(found)
         })
     }
 

@@ -182,10 +182,10 @@ fn linear<S: Real>(stretches: &[Stretch<S>]) -> Vec<[S; 6]> {
 }
 
 /// The pieces of a cubic spline, from the slopes at the knots.
-fn cubic<S: Real>(stretches: &[Stretch<S>], slopes: &[[S; 1]]) -> Vec<[S; 6]> {
+fn cubic<S: Real>(stretches: &[Stretch<S>], slopes: &[[S; 2]]) -> Vec<[S; 6]> {
     let (two, three, zero) = (S::constant(2.0), S::constant(3.0), S::zero());
     let piece = |(k, s): (usize, &Stretch<S>)| {
-        let ([d0], [d1], h) = (slopes[k], slopes[k + 1], s.width);
+        let ([d0, _], [d1, _], h) = (slopes[k], slopes[k + 1], s.width);
         let m = s.rise / h;
         let second = (three * m - two * d0 - d1) / h;
         [zero, d0, second, (d0 + d1 - two * m) / (h * h), zero, zero]
@@ -211,7 +211,7 @@ fn quintic<S: Real>(stretches: &[Stretch<S>], ends: &[[S; 2]]) -> Vec<[S; 6]> {
 
 /// Slopes without overshoot: a weighted harmonic mean of the slopes on both sides of the knot, or zero if they differ
 /// in sign.
-fn monotone<S: Real>(stretches: &[Stretch<S>], periodic: bool) -> Vec<[S; 1]> {
+fn monotone<S: Real>(stretches: &[Stretch<S>], periodic: bool) -> Vec<[S; 2]> {
     let (two, three) = (S::constant(2.0), S::constant(3.0));
     let inner = |a: &Stretch<S>, b: &Stretch<S>| {
         let (left, right) = (a.rise / a.width, b.rise / b.width);
@@ -230,14 +230,15 @@ fn monotone<S: Real>(stretches: &[Stretch<S>], periodic: bool) -> Vec<[S; 1]> {
         S::select(slope * near, bounded, S::zero())
     };
     let n = stretches.len();
-    let mut slopes: Vec<[S; 1]> = Vec::with_capacity(n + 1);
+    let alone = |slope: S| [slope, S::zero()];
+    let mut slopes: Vec<[S; 2]> = Vec::with_capacity(n + 1);
     let ends = match n {
         1 => [stretches[0].rise / stretches[0].width; 2],
         _ if periodic => [inner(&stretches[n - 1], &stretches[0]); 2],
         _ => [end(&stretches[0], &stretches[1]), end(&stretches[n - 1], &stretches[n - 2])],
     };
-    slopes.push([ends[0]]);
-    stretches.windows(2).map(|pair| [inner(&pair[0], &pair[1])]).append_to(&mut slopes);
-    slopes.push([ends[1]]);
+    slopes.push(alone(ends[0]));
+    stretches.windows(2).map(|pair| alone(inner(&pair[0], &pair[1]))).append_to(&mut slopes);
+    slopes.push(alone(ends[1]));
     slopes
 }

@@ -1,5 +1,6 @@
 //! The condition of minimum bending for the derivatives of a spline at its knots. The system is symmetric positive
-//! definite and block tridiagonal, and cyclic for a periodic spline.
+//! definite and block tridiagonal, and cyclic for a periodic spline. The unknowns of a knot are y′ and y″. A cubic spline
+//! needs y′ only; its y″ here is zero and independent of all others, so that one system serves both.
 
 use super::array::{each, indexed};
 use super::real::Real;
@@ -13,27 +14,37 @@ pub(super) struct Stretch<S> {
     pub rise: S,
 }
 
-type Block<S, const M: usize> = [[S; M]; M];
+type Block<S> = [[S; M]; M];
+
+/// The unknowns of a knot.
+const M: usize = 2;
 
 /// The contribution of one interval to the conditions at its two ends.
-pub(super) struct Share<S, const M: usize> {
-    first: Block<S, M>,
+pub(super) struct Share<S> {
+    first: Block<S>,
     /// Rows of the first end, columns of the last.
-    across: Block<S, M>,
-    last: Block<S, M>,
+    across: Block<S>,
+    last: Block<S>,
     right: [[S; M]; 2],
 }
 
 impl<S: Real> Stretch<S> {
     /// The contribution for y′, from the minimum of ∫ y″² dx.
-    pub fn cubic(&self) -> Share<S, 1> {
+    pub fn cubic(&self) -> Share<S> {
         let c = |x: f64| S::constant(x) / self.width;
         let right = c(6.0) * self.rise / self.width;
-        Share { first: [[c(4.0)]], across: [[c(2.0)]], last: [[c(4.0)]], right: [[right]; 2] }
+        let with = |slope: S, bend: f64| [[slope, S::zero()], [S::zero(), S::constant(bend)]];
+        let right = [[right, S::zero()]; 2];
+        Share {
+            first: with(c(4.0), 1.0),
+            across: with(c(2.0), 0.0),
+            last: with(c(4.0), 1.0),
+            right,
+        }
     }
 
     /// The contribution for (y′, y″), from the minimum of ∫ y‴² dx.
-    pub fn quintic(&self) -> Share<S, 2> {
+    pub fn quintic(&self) -> Share<S> {
         let (h, c) = (self.width, S::constant);
         let (h1, h2, h3) = (c(1.0) / h, c(1.0) / (h * h), c(1.0) / (h * h * h));
         let [slope, bend] = [c(360.0) * self.rise * h2 * h2, c(60.0) * self.rise * h3];
@@ -47,10 +58,10 @@ impl<S: Real> Stretch<S> {
 }
 
 /// The derivatives at all knots. The last knot of a periodic spline repeats the first.
-pub(super) fn solve<S: Real, const M: usize>(
+pub(super) fn solve<S: Real>(
     stretches: &[Stretch<S>],
     periodic: bool,
-    share: impl Fn(&Stretch<S>) -> Share<S, M>,
+    share: fn(&Stretch<S>) -> Share<S>,
 ) -> Vec<[S; M]> {
     let n = stretches.len() + usize::from(!periodic);
     let none = [[S::zero(); M]; M];
@@ -82,14 +93,14 @@ pub(super) fn solve<S: Real, const M: usize>(
 }
 
 /// Blocks of a symmetric matrix by rows: the diagonal, the next block to the right, and the last column.
-struct Conditions<S, const M: usize> {
-    diagonal: Vec<Block<S, M>>,
-    next: Vec<Block<S, M>>,
-    corner: Vec<Block<S, M>>,
+struct Conditions<S> {
+    diagonal: Vec<Block<S>>,
+    next: Vec<Block<S>>,
+    corner: Vec<Block<S>>,
     right: Vec<[S; M]>,
 }
 
-impl<S: Real, const M: usize> Conditions<S, M> {
+impl<S: Real> Conditions<S> {
     fn solve(mut self) -> Vec<[S; M]> {
         let last = self.diagonal.len() - 1;
         for k in 0..last {
@@ -114,7 +125,7 @@ impl<S: Real, const M: usize> Conditions<S, M> {
         x[last] = apply(&inverse(&self.diagonal[last]), &self.right[last]);
         for k in (0..last).rev() {
             let mut right = self.right[k];
-            let mut less = |block: &Block<S, M>, y: [S; M]| {
+            let mut less = |block: &Block<S>, y: [S; M]| {
                 let share = apply(block, &y);
                 (0..M).for_each(|m| right[m] -= share[m]);
             };
@@ -128,32 +139,32 @@ impl<S: Real, const M: usize> Conditions<S, M> {
     }
 }
 
-fn add<S: Real, const M: usize>(a: &mut Block<S, M>, b: &Block<S, M>) {
+fn add<S: Real>(a: &mut Block<S>, b: &Block<S>) {
     for (a, b) in a.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
         *a += *b;
     }
 }
 
-fn subtract<S: Real, const M: usize>(a: &mut Block<S, M>, b: &Block<S, M>) {
+fn subtract<S: Real>(a: &mut Block<S>, b: &Block<S>) {
     for (a, b) in a.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
         *a -= *b;
     }
 }
 
-fn transposed<S: Real, const M: usize>(a: &Block<S, M>) -> Block<S, M> {
+fn transposed<S: Real>(a: &Block<S>) -> Block<S> {
     indexed(|row| indexed(|column| a[column][row]))
 }
 
-fn apply<S: Real, const M: usize>(a: &Block<S, M>, x: &[S; M]) -> [S; M] {
+fn apply<S: Real>(a: &Block<S>, x: &[S; M]) -> [S; M] {
     each(*a, |row| dot(row, x))
 }
 
-fn times<S: Real, const M: usize>(a: &Block<S, M>, b: &Block<S, M>) -> Block<S, M> {
+fn times<S: Real>(a: &Block<S>, b: &Block<S>) -> Block<S> {
     let b = transposed(b);
     indexed(|row| indexed(|column| dot(a[row], &b[column])))
 }
 
-fn dot<S: Real, const M: usize>(a: [S; M], b: &[S; M]) -> S {
+fn dot<S: Real>(a: [S; M], b: &[S; M]) -> S {
     let mut sum = S::zero();
     for k in 0..M {
         sum += a[k] * b[k];
@@ -162,9 +173,9 @@ fn dot<S: Real, const M: usize>(a: [S; M], b: &[S; M]) -> S {
 }
 
 /// The inverse of a symmetric positive definite block, by elimination without pivoting.
-fn inverse<S: Real, const M: usize>(a: &Block<S, M>) -> Block<S, M> {
+fn inverse<S: Real>(a: &Block<S>) -> Block<S> {
     let mut a = *a;
-    let mut b: Block<S, M> = [[S::zero(); M]; M];
+    let mut b: Block<S> = [[S::zero(); M]; M];
     (0..M).for_each(|k| b[k][k] = S::one());
     for pivot in 0..M {
         let scale = S::one() / a[pivot][pivot];

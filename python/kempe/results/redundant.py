@@ -22,5 +22,5 @@ def redundant(motion: Motion) -> tuple[frozenset[str], frozenset[str]]:
     rows = motion._rows()
     some = np.unique(np.linspace(0, len(rows[0]) - 1, _EXAMINED).round().astype(int))
     states = _core.States(motion.compiled.core, *(of[some] for of in rows))
-    shared, kept = states.not_unique()
+    shared, kept, _ = states.not_unique()
     return frozenset(shared), frozenset(kept)

@@ -41,5 +41,5 @@ def shared(motion: Motion, phases: Phases | None) -> frozenset[str]:
     found: frozenset[str] = frozenset()
     for phase, core in cores.items():
         own = np.flatnonzero(of_row == phase)[[0, -1]]
-        found |= _core.States(core, *(of[own] for of in rows)).shared()
+        found = found.union(_core.States(core, *(of[own] for of in rows)).not_unique()[2])
     return found
