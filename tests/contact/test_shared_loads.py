@@ -58,6 +58,7 @@ def test_the_loads_that_statics_does_not_determine_have_a_choice(
     if pinned:
         assert sol["pin"].unique == ("pin" not in several)
     assert str(sol.statistics.get("notes", "")).count("share the load") == bool(several)
+    assert dict(kp.design.free_body(sol, "beam").not_unique) == dict(sol.choices)
     weight = scale[0] * G
     loads = [sol[f"foot{k}.force"][-1] for k in range(len(feet))]
     pin = sol["pin"].force(on="beam")[-1][1] if pinned else 0.0

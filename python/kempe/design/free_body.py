@@ -49,8 +49,8 @@ class FreeBody:
         inertia: m a and J α.
         residual: error of Newton's and Euler's equations, relative to the largest force (moment) on
             the body at the instant.
-        not_unique: the joints and drivers whose loads are not unique, each with the choice among
-            the possible values: "minimum norm", "second-order load left out", "middle of
+        not_unique: the joints, drivers and forces whose loads are not unique, each with the choice
+            among the possible values: "minimum norm", "second-order load left out", "middle of
             friction at rest" or "one way to share the load".
         unbounded_at: times of singular positions of the solution beside which a load has no bound,
             by joint or driver.
@@ -185,6 +185,6 @@ def free_body(
         tuple(found),
         own,
         imbalance(found, own),
-        MappingProxyType({n: choices[n] for n in names if n in choices}),
+        MappingProxyType({load.name: choices[load.name] for load in found if load.name in choices}),
         MappingProxyType({name: times for name, times in passed.items() if times}),
     )
