@@ -116,6 +116,10 @@ class Search:
         if self.problem.has_smooth_residuals and self.method == "slsqp":
             self._rounds(self._squares)  # which takes the fewest runs if no limit cuts
         self._rounds(solve)
+        if self.best is not None and not self.best.holds:
+            self._rounds(self._nearer)
+            if self.best.holds:
+                self._rounds(solve)
         return self.best
 
     def _rounds(self, solve: Callable[[Floats, Run], None]) -> None:
@@ -199,6 +203,27 @@ class Search:
             jac=True,
             bounds=bounds,
             constraints=room,
+            method="SLSQP",
+            options={"ftol": _SMALL, "maxiter": _MOST},
+        )
+
+    def _nearer(self, shares: Floats, first: Run) -> None:
+        """The least of the largest excess of a limit, where a method found no values that hold.
+
+        The excess is a further variable, so that some step always satisfies all slopes.
+        """
+        of = Smooth(self.problem, self.at, (shares, first))
+        excess = np.append(np.zeros_like(of.start), 1.0)
+        scipy().minimize(
+            lambda at: (at[-1], excess),
+            np.append(of.start, -of.room(of.start).min()),
+            jac=True,
+            bounds=[*zip(*of.bounds, strict=True), (0.0, np.inf)],
+            constraints={
+                "type": "ineq",
+                "fun": lambda at: of.room(at[:-1]) + at[-1],
+                "jac": lambda at: np.insert(of.room_slopes(at[:-1]), len(at) - 1, 1.0, axis=1),
+            },
             method="SLSQP",
             options={"ftol": _SMALL, "maxiter": _MOST},
         )
