@@ -115,15 +115,12 @@ class Search:
         solve = {"least-squares": self._squares, "slsqp": self._slsqp}.get(self.method, self._trust)
         if self.problem.has_smooth_residuals and self.method == "slsqp":
             self._rounds(self._squares)  # which takes the fewest runs if no limit cuts
-        self._rounds(solve)
-        if self.best is not None and not self.best.holds:
-            self._rounds(self._nearer)
-            if self.best.holds:
-                self._rounds(solve)
+        if not self._rounds(solve) and self._rounds(self._nearer):
+            self._rounds(solve)
         return self.best
 
-    def _rounds(self, solve: Callable[[Floats, Run], None]) -> None:
-        """Search from the best run with new scales until nothing is gained."""
+    def _rounds(self, solve: Callable[[Floats, Run], None]) -> bool:
+        """Search from the best run with new scales until nothing is gained; whether limits hold."""
         for _ in range(_ROUNDS):
             before = self.best
             assert before is not None
@@ -136,6 +133,7 @@ class Search:
             self._snap()
             if self.best is before or self._is_close(before):
                 break
+        return self.best is not None and self.best.holds
 
     @property
     def _is_met(self) -> bool:

@@ -19,7 +19,7 @@ class Squares:
 
     SLSQP begins with the unit matrix in place of the second derivatives, and learns them in as many
     steps as there are variables. Those of a sum of squares are nearly JᵀJ with the slopes J of the
-    residuals. In the variables x = first + T y with T JᵀJ T = 1, the unit matrix is right.
+    residuals. In the variables x = first + T y with T JᵀJ T = 1, the unit matrix is correct.
     Bounds are limits of y. A run that fails is a wall, as in ``Smooth``.
 
     Args:
