@@ -1,12 +1,18 @@
 """Objectives without values, limits that cannot be met, bounds without a mechanism."""
 
 import re
+import resource
 import sys
+from pathlib import Path
 
 import kempe as kp
 import numpy as np
 import pytest
 from design_problems.machines import lamp, path_generator, slider_crank
+from kempe.base.arrays import Floats
+from kempe.sweeps.problems import search
+from kempe.sweeps.problems.evaluate import Evaluations
+from kempe.sweeps.problems.problem import Numbers
 
 
 def dyad(first: float, second: float) -> kp.Case:
@@ -65,18 +71,107 @@ def test_limits_that_cannot_be_met_are_named_with_their_gap() -> None:
     assert told and float(told[1]) == pytest.approx(missing, abs=1e-3)
 
 
-def test_an_objective_without_a_value_at_the_start() -> None:
-    """A swing that does not settle has no settling time; with enough damping it has one."""
+@pytest.mark.parametrize("size", [1.0, 1e-4])
+def test_limits_that_exclude_each_other_are_missed_by_equal_parts(size: float) -> None:
+    """The largest excess is least at k = √(10·30): there, (k - 10)/k and (30 - k)/30 are equal."""
+    m = kp.Model("slide", parameters={"k": 4.0 * size})
+    m.ground.points(O=(0, 0))
+    m.body("slide", mass=1, inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "slide.P")
+    m.generalized_force("spring", "guide.displacement", value="k - guide.displacement")
+    case = kp.Case(m, None, [kp.Equilibrium()])
+    limits = [f"slide.x <= {10 * size}", f"slide.x >= {30 * size}"]
+    best = kp.optimize(case, {"k": (size, 100 * size)}, minimize="slide.x", subject_to=limits)
+    told = best.message.replace("mm", "e-3 m")
+    found = re.findall(r"(slide[^,]*) is missed by ([\d.]+) ?(e-3)? m", told)
+    missed = {text: float(by + power) for text, by, power in found}
+    assert not best.success and list(missed) == limits
+    assert sum(missed.values()) == pytest.approx(20 * size, rel=1e-3)
+    assert best.values["k"] == pytest.approx(np.sqrt(300) * size, rel=1e-2)
+
+
+def damped_rod() -> kp.Case:
+    """A rod that swings; it settles within 6 s with enough damping."""
     m = kp.Model("rod", gravity=(0, -9.81), parameters={"c": 0})
     m.ground.points(O=(0, 0))
     m.bar("rod", mass=1, length=1, ends=("O", "P"))
     m.revolute("O", "ground.O", "rod.O")
     m.torsion_spring("bearing", "ground", "rod", damping="c")
     run = kp.Dynamics(t_end=6, output_step=0.02)
-    case = kp.Case(m, {"set": {"rod.angle": -1.0}}, [run])
-    best = kp.optimize(case, {"c": (0, 3)}, minimize="rod.angle.settling", starts=4)
+    return kp.Case(m, {"set": {"rod.angle": -1.0}}, [run])
+
+
+def test_an_objective_without_a_value_at_the_start() -> None:
+    """A swing that does not settle has no settling time; with enough damping it has one."""
+    best = kp.optimize(damped_rod(), {"c": (0, 3)}, minimize="rod.angle.settling", starts=4)
     assert best.success and 0.5 < best.objective < 3
     assert any("has no value here: it is nan" in text for text in best.reasons)
+
+
+def test_a_limit_and_a_target_without_a_value_at_the_start() -> None:
+    limit = "rod.angle.settling <= 3"
+    best = kp.optimize(damped_rod(), {"c": (0, 3)}, minimize="c", subject_to=limit)
+    assert best.success and best.measures["rod.angle.settling"] <= 3 * (1 + 1e-6)
+    assert f"{limit} has no value here: it is nan" in best.reasons
+    best = kp.optimize(damped_rod(), {"c": (0, 3)}, target={"rod.angle.settling": 2.0})
+    assert best.success and best.measures["rod.angle.settling"] == pytest.approx(2, rel=0.1)
+    told = "all .* fail; most frequently: rod.angle.settling has no value here"
+    with pytest.raises(kp.ModelError, match=told):
+        kp.optimize(damped_rod(), {"c": (0, 1e-3)}, minimize="rod.angle.settling")
+
+
+def test_an_objective_with_jumps() -> None:
+    """Between its jumps it falls with a, so that the search passes all of them."""
+    best = kp.optimize(dyad(0.8, 0.7), {"a": (0.6, 0.9)}, minimize="floor(20*a) + one.C.y - 2*b")
+    assert best.success and best.values["a"] < 0.65
+    assert any(run.objective > best.objective + 3 for *_, run in best._history)
+
+
+def test_a_worker_that_dies(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """A thread runs out of memory: the call fails, the runs are kept, and it continues."""
+    case, bounds = dyad(0.8, 0.7), {"a": (0.1, 0.9), "b": (0.1, 0.8)}
+    ask = {"maximize": "one.C.y", "starts": 3, "out": tmp_path / "runs.db"}
+    measured, done = Evaluations._measured, []
+
+    def dying(self: Evaluations, row: Floats) -> Numbers:
+        done.append(row)
+        if len(done) == 5:
+            raise MemoryError("no memory for another run")
+        return measured(self, row)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Evaluations, "_measured", dying)
+        with pytest.raises(MemoryError, match="no memory for another run"):
+            kp.optimize(case, bounds, **ask)
+    rows: list[Floats] = []
+    monkeypatch.setattr(
+        Evaluations, "_measured", lambda self, row: rows.append(row) or measured(self, row)
+    )
+    best = kp.optimize(case, bounds, **ask)
+    assert dict(best.values) == pytest.approx({"a": 0.9, "b": 0.8})
+    assert 0 < len(rows) <= best.runs - 4
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the memory in use is read from /proc")
+def test_memory_of_a_thousand_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ten thousand runs may add 50 MB; the history of each run is kept."""
+
+    def used() -> float:
+        pages = int(Path("/proc/self/statm").read_text().split()[1])
+        return pages * resource.getpagesize() / 1e6
+
+    def searched(generations: int) -> kp.Optimum:
+        monkeypatch.setattr(search, "_GENERATIONS", generations)
+        monkeypatch.setattr(search, "_SPREAD", 0.0)
+        return kp.optimize(
+            dyad(0.8, 0.7), {"a": (0.6, 0.9), "b": (0.6, 0.8)}, maximize="one.C.y",
+            method="differential-evolution",
+        )  # fmt: skip
+
+    searched(1)
+    before = used()
+    best = searched(32)
+    assert best.runs > 1000 and used() - before < 5.0
 
 
 def test_a_measure_without_slopes_is_evolved() -> None:

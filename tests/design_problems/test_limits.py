@@ -41,6 +41,16 @@ def test_a_limit_at_zero_of_a_variable() -> None:
     assert dict(best.active) == {"zero <= 0": pytest.approx(4, rel=1e-5)}
 
 
+@pytest.mark.parametrize("limit", ["free >= 0", "0 <= free", "-free <= 0"])
+def test_least_squares_from_a_limit_whose_size_is_zero(limit: str) -> None:
+    case, exact = lamp(1, 1, 9.81, n=5)
+    best = kp.optimize(
+        case.with_parameters({"free": 0.0}), {"k": (0, 10 * exact["k"]), "free": (-1, 1)},
+        target={"over.effort.max": 0, "over.effort.min": 0}, subject_to=limit,
+    )  # fmt: skip
+    assert best.success and best.values["k"] == pytest.approx(exact["k"], rel=1e-8)
+
+
 @pytest.mark.parametrize("method", ["slsqp", "trust-constr"])
 def test_methods_with_slopes_take_differences_where_there_are_none(method: str) -> None:
     """A frequency of a motion has no slope; the right stiffness is (2 π 0.5)²."""

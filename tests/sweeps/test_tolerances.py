@@ -46,6 +46,36 @@ def test_yield() -> None:
         kp.tolerances(case, {"F": 0.04}, "mass.x", subject_to="mass.x", **ask)
 
 
+def sums(scale: float) -> tuple[kp.Case, dict[str, float]]:
+    """A mass that rests at a weighted sum of three forces over k, and the weights over k."""
+    weights = {"F": 1.0, "G": -0.3, "H": 5.0}
+    parameters = dict.fromkeys(weights, 0.8 * scale) | {"zero": 0.0}
+    m = kp.Model("sum", parameters=parameters)
+    m.ground.points(O=(0, 0))
+    m.body("mass", mass=2, inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "mass.P")
+    total = " + ".join(f"({x})*{name}" for name, x in weights.items())
+    m.generalized_force("push", "guide.displacement", value=f"{total} - 50*guide.displacement")
+    case = kp.Case(m, None, [kp.Equilibrium()])
+    return case, {name: x / 50 for name, x in weights.items()}
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-6, 20.0])
+def test_yield_of_a_linear_measure_between_two_limits(scale: float) -> None:
+    """A sum of normal distributions is normal; the limits are at -1.2 and +0.7 deviations."""
+    case, slopes = sums(scale)
+    widths, n = {"F": 0.1 * scale, "G": 0.2 * scale, "H": 0.02 * scale}, 1500
+    nominal = 0.8 * scale * sum(slopes.values())
+    spread = np.sqrt(sum((slopes[name] * x) ** 2 for name, x in widths.items()))
+    limits = [f"mass.x >= {nominal - 1.2 * spread}", f"mass.x <= {nominal + 0.7 * spread}"]
+    found = kp.tolerances(case, widths, "mass.x", n=n, seed=3, subject_to=limits)
+    share = norm.cdf(0.7) - norm.cdf(-1.2)
+    assert abs(found.yield_ - share) < 4 * np.sqrt(share * (1 - share) / n)
+    assert found.first_order == pytest.approx(spread, rel=1e-9)
+    assert found.deviation == pytest.approx(spread, rel=4 / np.sqrt(2 * n))
+    assert found.mean == pytest.approx(nominal, abs=4 * spread / np.sqrt(n))
+
+
 def test_variants_that_fail_satisfy_no_limit() -> None:
     m = kp.Model("dyad", gravity=(0, -9.81), parameters={"a": 0.5, "b": 0.52})
     m.ground.points(A=(0, 0), B=(1, 0))
@@ -92,6 +122,26 @@ def test_the_cheapest_tolerances(limit: float) -> None:
     assert found.cost == pytest.approx(best.fun, rel=1e-6) and found.deviations["idle"] == np.inf
     spread = np.linalg.norm(slopes * sigma)
     assert 3 * spread == pytest.approx(abs(limit - found.nominal), rel=1e-12)
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-6, 20.0])
+@pytest.mark.parametrize("side", [-0.05, 0.02])
+def test_the_cheapest_tolerances_of_a_linear_measure(scale: float, side: float) -> None:
+    """By Lagrange: the least Σ c/σ is 3/room · (Σ (c s)^⅔)^1.5, with slopes s; σ³ ∝ c/s²."""
+    case, slopes = sums(scale)
+    costs = {"F": 0.02 * scale, "G": 1.5, "H": 40.0 * scale}
+    nominal = 0.8 * scale * sum(slopes.values())
+    found = kp.allocate(case, "mass.x", nominal + side * scale, {**costs, "zero": 1.0})
+    s, c = np.array(list(slopes.values())), np.array(list(costs.values()))
+    total = (np.abs(c * s) ** (2 / 3)).sum()
+    assert found.cost == pytest.approx(3 / abs(side * scale) * total**1.5, rel=1e-9)
+    sigma = np.cbrt(c / s**2) * abs(side * scale) / 3 / np.sqrt(total)
+    assert [found.deviations[name] for name in slopes] == pytest.approx(sigma, rel=1e-9)
+    assert found.deviations["zero"] == np.inf
+    kept = {name: found.deviations[name] for name in slopes}
+    limit = f"mass.x {'<=' if side > 0 else '>='} {found.limit}"
+    held = kp.tolerances(case, kept, "mass.x", n=1000, seed=7, subject_to=limit)
+    assert abs(held.yield_ - norm.cdf(3)) < 4 * np.sqrt(norm.sf(3) / 1000)
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import json
 import os
 import warnings
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -177,11 +177,12 @@ class _Points:
         self.own = problem.shares(values.values())
         self._dimension, self._seed = len(self.own), seed
 
-    def of(self, start: int, count: int) -> list[Floats]:
+    def of(self, start: int, count: int) -> Iterator[Floats]:
         """The points that a start tries one after the other."""
+        if start == 0:
+            yield self.own  # often the only one: drawing others loads a large package first
         drawn = self.drawn(count * _TRIES)
-        own = [drawn[start - 1 + k * count] for k in range(_TRIES) if start or k]
-        return [self.own, *own] if start == 0 else own
+        yield from (drawn[start - 1 + k * count] for k in range(_TRIES) if start or k)
 
     def drawn(self, count: int) -> Floats:
         """Sobol points, at least so many."""
@@ -201,7 +202,7 @@ def _has_rng(kind: Any) -> bool:
     return "rng" in inspect.signature(kind).parameters
 
 
-def _method(runs: Evaluations, points: Sequence[Floats]) -> str:
+def _method(runs: Evaluations, points: Iterable[Floats]) -> str:
     """The method that fits a problem: derivatives are needed at one of the first two points.
 
     At one point alone, two equal peaks may leave a measure without a slope.

@@ -13,11 +13,14 @@ from kempe.base.arrays import Floats
 from kempe.errors import KempeError, ModelError
 from kempe.sweeps.problems.evaluate import Evaluations
 from kempe.sweeps.problems.problem import Run
-from kempe.sweeps.problems.smooth import Smooth
+from kempe.sweeps.problems.smooth import Smooth, sizes_of
+from kempe.sweeps.problems.squares import Squares
 from kempe.sweeps.reasons import reason
 
 #: Relative change of the scaled objective at which a method ends; most runs of a round, and rounds.
 _SMALL, _MOST, _ROUNDS = 1e-10, 300, 4
+#: A root of squares that is this part of its size is 0: what is left are rounding errors.
+_ZERO = 1e-10
 #: A gap in a message.
 _GAP = re.compile(r"\bby (\d[\d.]*(?:e-?\d+)?) (?:m|rad)\b")
 #: Step of a difference of gaps, as a part of the range of a variable; part of the first gap by
@@ -67,14 +70,14 @@ class Search:
         self.best: Run | None = None
         self._last: Run | None = None
         self._seen: tuple[bytes, Run] | None = None
-        self._left = _MOST
+        self._left, self._zero = _MOST, -np.inf
 
     def at(self, shares: Floats) -> Run:
         """The run at a point of the unit cube."""
         key = np.asarray(shares).tobytes()  # methods ask for objective, limits and slopes apart
         if self._seen is None or self._seen[0] != key:
             self._left -= 1
-            if self._left < 0:
+            if self._left < 0 or self._is_met:
                 raise _EndedError
             self._seen = key, self.runs.at(self.start, self.problem.row(np.asarray(shares)))
             self._note(self._seen[1])
@@ -104,14 +107,20 @@ class Search:
             first = self.at(closer) if closer is not None else first
         if first.reason:
             return None
+        if self.problem.is_square and self.problem.sign > 0.0:
+            of_values = np.abs(first.slope * first.row)  # what a value changes if it doubles
+            self._zero = _ZERO * max(
+                abs(first.objective), np.nan_to_num(of_values).max(initial=0.0)
+            )
         solve = {"least-squares": self._squares, "slsqp": self._slsqp}.get(self.method, self._trust)
         if self.problem.has_smooth_residuals and self.method == "slsqp":
-            self._rounds(self._squares)  # SLSQP does not use that they are squares
-        self._rounds(solve)
+            self._rounds(self._squares)  # which takes the fewest runs if no limit cuts
+        if not self._rounds(solve) and self._rounds(self._nearer):
+            self._rounds(solve)
         return self.best
 
-    def _rounds(self, solve: Callable[[Floats, Run], None]) -> None:
-        """Search from the best run with new scales until nothing is gained."""
+    def _rounds(self, solve: Callable[[Floats, Run], None]) -> bool:
+        """Search from the best run with new scales until nothing is gained; whether limits hold."""
         for _ in range(_ROUNDS):
             before = self.best
             assert before is not None
@@ -119,9 +128,17 @@ class Search:
             with suppress(_EndedError):
                 solve(self.problem.shares(before.row), before)
             self._left = _MOST
+            if self._is_met:
+                break
             self._snap()
             if self.best is before or self._is_close(before):
                 break
+        return self.best is not None and self.best.holds
+
+    @property
+    def _is_met(self) -> bool:
+        """Whether the objective of the best run cannot be less: it is a root of squares and 0."""
+        return self.best is not None and self.best.holds and self.best.objective <= self._zero
 
     def _is_close(self, before: Run) -> bool:
         """Whether the best run is hardly better than an earlier one."""
@@ -171,15 +188,40 @@ class Search:
         return 0.0
 
     def _slsqp(self, shares: Floats, first: Run) -> None:
-        of = Smooth(self.problem, self.at, (shares, first))
+        of: Smooth | Squares
+        if self.problem.has_smooth_residuals:
+            of, bounds, has_room = Squares(self.problem, self.at, (shares, first)), None, True
+        else:
+            of = Smooth(self.problem, self.at, (shares, first))
+            bounds, has_room = list(zip(*of.bounds, strict=True)), of.has_room
+        room = [{"type": "ineq", "fun": of.room, "jac": of.room_slopes}] if has_room else []
         scipy().minimize(
             of.objective,
             of.start,
             jac=True,
-            bounds=list(zip(*of.bounds, strict=True)),
-            constraints=[{"type": "ineq", "fun": of.room, "jac": of.room_slopes}]
-            if of.has_room
-            else [],
+            bounds=bounds,
+            constraints=room,
+            method="SLSQP",
+            options={"ftol": _SMALL, "maxiter": _MOST},
+        )
+
+    def _nearer(self, shares: Floats, first: Run) -> None:
+        """The least of the largest excess of a limit, where a method found no values that hold.
+
+        The excess is a further variable, so that some step always satisfies all slopes.
+        """
+        of = Smooth(self.problem, self.at, (shares, first))
+        excess = np.append(np.zeros_like(of.start), 1.0)
+        scipy().minimize(
+            lambda at: (at[-1], excess),
+            np.append(of.start, -of.room(of.start).min()),
+            jac=True,
+            bounds=[*zip(*of.bounds, strict=True), (0.0, np.inf)],
+            constraints={
+                "type": "ineq",
+                "fun": lambda at: of.room(at[:-1]) + at[-1],
+                "jac": lambda at: np.insert(of.room_slopes(at[:-1]), len(at) - 1, 1.0, axis=1),
+            },
             method="SLSQP",
             options={"ftol": _SMALL, "maxiter": _MOST},
         )
@@ -201,9 +243,10 @@ class Search:
     def _squares(self, shares: Floats, first: Run) -> None:
         """Least squares; the excess of a limit is a further residual."""
         size = float(np.linalg.norm(first.residuals[0])) or 1.0
+        sizes = sizes_of(self.problem, first)
 
         def of(run: Run) -> Floats:
-            return np.append(run.residuals[0] / size, np.minimum(run.room / run.sizes, 0.0))
+            return np.append(run.residuals[0] / size, np.minimum(run.room / sizes, 0.0))
 
         def residuals(at: Floats) -> Floats:
             run = self.at(at)
@@ -214,7 +257,7 @@ class Search:
         def slopes(at: Floats) -> Floats:
             run = self.at(at)
             run = (self._last or first) if run.reason else run
-            excess = np.where(run.room < 0.0, 1.0 / run.sizes, 0.0)[:, None]
+            excess = np.where(run.room < 0.0, 1.0 / sizes, 0.0)[:, None]
             rows = np.vstack([run.residuals[1] / size, np.nan_to_num(run.room_slopes) * excess])
             return np.asarray(rows * self.problem.rates(run.row))
 

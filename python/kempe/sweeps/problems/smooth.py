@@ -47,8 +47,7 @@ class Smooth:
         self._size = float(np.abs(values).max()) or float(np.abs(slopes).max(initial=0.0)) or 1.0
         rates = problem.rates(run.row)
         of_limits = np.nan_to_num(run.room_slopes) * rates
-        known = np.abs(of_limits).max(axis=1, initial=0.0)
-        self._sizes = np.where(run.sizes > 0.0, run.sizes, np.where(known > 0.0, known, 1.0))
+        self._sizes = sizes_of(problem, run)
         steepest = np.abs(np.vstack([slopes / self._size, of_limits / self._sizes[:, None]]))
         own = np.minimum(1.0, _LEAST * np.abs(run.row / rates))
         steepest = np.maximum(steepest.max(axis=0), 1.0)
@@ -105,3 +104,9 @@ class Smooth:
         of_pieces = self._pieces(run)[1] * self._scales / self._size
         ends = np.repeat([0.0, 1.0], (len(slopes), len(of_pieces)))
         return np.column_stack([np.vstack([slopes, -of_pieces]), ends])
+
+
+def sizes_of(problem: Problem, run: Run) -> Floats:
+    """The sizes of the limits, and their change over the bounds where a size is 0."""
+    known = np.abs(np.nan_to_num(run.room_slopes) * problem.rates(run.row)).max(axis=1, initial=0.0)
+    return np.where(run.sizes > 0.0, run.sizes, np.where(known > 0.0, known, 1.0))
