@@ -92,6 +92,12 @@ def test_the_case_has_wheels_of_steel_at_their_distances(name: str) -> None:
     mass = {wheel: 7800 * 0.02 * np.pi * r**2 for wheel, r in radius.items()}
     model = train.case.model.compile()
     assert model.gravity == (0.0, 0.0)
+    axles = [f"axle_{wheels[0]}" for wheels in shafts]
+    others = [f"mesh_{k}" for k, _ in enumerate(meshes, 1)]
+    if name == "planetary":
+        axles.insert(1, "axle_carrier")
+        others = ["inner", "outer"]
+    assert sorted(model.joints) == sorted([*axles, *others])
     motion = train.case.run()["motion"]
     for wheels in shafts:
         body = model.bodies[wheels[0]]
