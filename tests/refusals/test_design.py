@@ -131,6 +131,7 @@ MECHANISMS: dict[str, Callable[[], object]] = {
     "path at rest": lambda: design.coupler_curve(moved(), "crank.O"),
     "path of a number": lambda: design.coupler_curve(moved(), 3),  # type: ignore[arg-type]
     "path of three": lambda: design.coupler_curve(moved(), ("rod", (0, 0), 1)),  # type: ignore[arg-type]
+    "path of a body alone": lambda: design.coupler_curve(moved(), ("rod",)),  # type: ignore[arg-type]
     "path of a word": lambda: design.coupler_curve(moved(), ("rod", "A")),  # type: ignore[arg-type]
     "path of no point": lambda: design.coupler_curve(moved(), "rod.Q"),
     "path of no body": lambda: design.coupler_curve(moved(), "rod"),
@@ -155,6 +156,9 @@ MECHANISMS: dict[str, Callable[[], object]] = {
     "gear ratio without bound": train(np.inf),
     "gear teeth": train(2.0, teeth=(2, 20)),
     "gear teeth in turn": train(2.0, teeth=(50, 20)),
+    "gear teeth of three": train(2.0, teeth=(17, 20, 30)),
+    "gear teeth of one number": train(2.0, teeth=17),
+    "gear teeth in parts": train(2.0, teeth=(17.5, 20)),
     "gear compound": train(-2.0, "compound"),
     "gear planetary": train(1.0, "planetary"),
     "gear none": train(4.0, "planetary", teeth=(17, 18), planets=9),
@@ -189,6 +193,8 @@ CAMS: dict[str, Callable[[], object]] = {
     "pivot alone": cam(pivot=(0.05, 0.0)),
     "arm": swung(arm=-0.07),
     "pivot": swung(pivot=(1.0, 2.0, 3.0)),
+    "pivot of one": swung(pivot=(1.0,)),
+    "spring of three": cam(spring=(1.0, 2.0, 3.0)),
     "pivot at the shaft": swung(pivot=(0.0, 0.0)),
     "speed": cam(speed=-1.0),
     "mass": cam(mass=-1.0),
@@ -222,6 +228,7 @@ CAMS: dict[str, Callable[[], object]] = {
     ),
     "five derivatives": cam(programme=law(type="polynomial", start=[0] * 5)),
     "point": cam(programme=law(type="spline", points=[(0.5, 0.002), 3])),
+    "point of three": cam(programme=law(type="spline", points=[(0.5, 0.002, 1.0)])),
     "points in turn": cam(programme=law(type="spline", points=[(0.5, 0.002), (0.5, 0.003)])),
     "start of a spline": cam(programme=law(type="spline", start=[0])),
     "end of a spline": cam(programme=law(type="spline", end=[0, 0, 0])),
