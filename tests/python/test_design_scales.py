@@ -1,6 +1,6 @@
 """Numbers of a design in other units of mass, length and time, their words, and the defaults."""
 
-from dataclasses import replace
+from dataclasses import FrozenInstanceError, fields, replace
 from functools import cache
 from typing import Any
 
@@ -152,6 +152,29 @@ def test_every_result_has_its_main_numbers_in_its_words() -> None:
         "<Balance: no counterweights; shaking force 12.5 N to 1 N>"
     )
     assert told(made, of="torque").endswith("; effort of the drive 12.5 to 0.5>")
+
+
+def test_results_cannot_be_changed() -> None:
+    """Their attributes keep their values."""
+    sol = turned()
+    found = [
+        *(design.coupler_curve(sol, "rod.P"), design.transmission_angle(sol, "B")),
+        *(design.duty(sol, "motor"), design.flywheel(sol, "motor", fluctuation=0.03)),
+        *(design.shaking(sol), design.pin_load(sol, "A"), design.free_body(sol, "rod")),
+        *design.free_body(sol, "rod").loads,
+        *(design.free_body(sol, "rod").inertia, design.instant_centre(sol, "ground", "rod")),
+        *(polygon := design.velocity_polygon(sol, 0.7)).sides,
+        *(polygon, design.toggles(sol, "piston.x")[0], design.gear_train(2.0), translating()),
+        Counterweight(0.25, (0.0, 0.1)),
+    ]
+    kinds = {type(one).__name__ for one in found} | {"Balance", "Limits"}
+    classes = {name for name in design.__all__ if isinstance(getattr(design, name), type)}
+    assert kinds == classes
+    assert Balance.__dataclass_params__.frozen  # type: ignore[attr-defined]
+    for one in found:
+        name = fields(one)[0].name
+        with pytest.raises(FrozenInstanceError):
+            setattr(one, name, None)
 
 
 def test_arguments_that_are_left_out_have_the_documented_values() -> None:
