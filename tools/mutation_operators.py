@@ -11,7 +11,7 @@ Span = tuple[tuple[int, int], tuple[int, int]]
 
 
 class SwapArguments(Operator):  # type: ignore[misc]
-    """Swaps two neighbouring positional arguments of a call."""
+    """Swaps two neighbouring positional arguments of a call that differ."""
 
     def mutation_positions(self, node: Any) -> Iterator[Span]:
         """Each pair of neighbours."""
@@ -32,7 +32,9 @@ class SwapArguments(Operator):  # type: ignore[misc]
         if node.type != "arglist":
             return []
         plain = [child.type not in ("argument", "operator") for child in node.children]
-        return [k for k in range(len(plain) - 2) if plain[k] and plain[k + 2]]
+        words = [child.get_code().strip() for child in node.children]
+        pairs = ((k, k + 2) for k in range(len(plain) - 2))
+        return [a for a, b in pairs if plain[a] and plain[b] and words[a] != words[b]]
 
     @classmethod
     def examples(cls) -> tuple[Example, ...]:

@@ -265,3 +265,20 @@ def test_other_followers_have_no_roller_and_no_groove() -> None:
         _ = translating().conjugate
     with pytest.raises(kp.ModelError, match="beyond the line"):
         oscillating("flat", base_radius=0.069)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_outer_wall_of_a_groove_is_sharpest_in_its_hollow(size: float) -> None:
+    """Its radius of curvature there, by differences along the wall, is the least of the groove."""
+    steps = [("rise", "40 deg", 0.02 * size, "cycloidal"), ("dwell", "90 deg")]
+    steps += [("return", "40 deg", "cycloidal"), ("dwell", "190 deg")]
+    cam = translating(size=size, programme=steps, closure="groove")
+    angle = np.linspace(0.0, 2 * np.pi, 100_001)
+    wall = cam.at(angle).beside(2 * cam.follower.roller)
+    first = np.gradient(wall, angle)
+    second = np.gradient(first, angle)
+    curvature = (np.conj(first) * second).imag / np.abs(first) ** 3
+    against = curvature * np.sign(curvature[-2]) < 0.0  # the last dwell is on the base circle
+    hollow = 1.0 / np.abs(curvature[against]).max()
+    assert hollow < 0.1 * cam.follower.base
+    assert cam.least_radius_of_curvature == pytest.approx(hollow, rel=1e-4)

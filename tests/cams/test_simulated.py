@@ -144,3 +144,25 @@ def test_the_case_is_a_file(tmp_path: object) -> None:
     path = tmp_path / "cam.toml"  # type: ignore[operator]
     cam.case.save(path)
     assert kp.load(path).tree() == cam.case.tree()
+
+
+@pytest.mark.parametrize(
+    ("cam", "spring"),
+    [
+        (lambda **more: translating("knife", direction="cw", **more), (12.0, 3.0)),
+        (lambda **more: translating(offset=0.004, **more), (0.0, 3.0)),
+        (oscillating, (12.0, 0.0)),
+        (lambda **more: oscillating(pivot=(-0.08, 0.01), direction="cw", **more), (12.0, 3.0)),
+    ],
+)
+def test_the_drive_does_the_work_of_the_spring(
+    cam: Callable[..., kp.design.Cam], spring: tuple[float, float]
+) -> None:
+    """Its torque with the spring exceeds that without by (k s + F) s'."""
+    free, loaded = cam(mass=0.3), cam(mass=0.3, spring=spring)
+    assert not free.case.model.compile().forces
+    with_spring, without = turn_of(loaded.case), turn_of(free.case)
+    s, v, _ = moved(loaded, with_spring)
+    more = with_spring["drive.effort"] - without["drive.effort"]
+    work = (spring[0] * s + spring[1]) * v * (-1.0 if loaded.clockwise else 1.0)
+    assert np.abs(more - work).max() < 1e-6 * np.abs(work).max()

@@ -129,7 +129,12 @@ WORDS: dict[str, tuple[list[str], int, str]] = {
     "end infinite": (["run", "good.toml", "--t-end", "inf"], BAD_INPUT, "t_end"),
     "option without value": (["run", "good.toml", "-o"], BAD_INPUT, "requires an argument"),
     "output in a file": (["run", "good.toml", "-o", "good.toml"], FILE, "good.toml"),
-    "show format": (["show", "good.toml", "--format", "pdf"], BAD_INPUT, "is not one of 'text'"),
+    "show format": (
+        ["show", "good.toml", "--format", "pdf"],
+        BAD_INPUT,
+        "--format': 'pdf' is not one of 'text'",
+    ),
+    "method": (["run", "good.toml", "--method", "euler"], BAD_INPUT, "--method': 'euler' is not"),
     "show time": (["show", "good.toml", "--t", "9"], BAD_INPUT, "0 to 0.05 s"),
     "show into a folder": (["show", "good.toml", "-o", "."], FILE, "folder"),
     "study of nothing": (["study", "good.toml", "--analysis", "x"], BAD_INPUT, "release"),

@@ -68,6 +68,16 @@ def test_a_value_at_the_start_is_written_too(folder: Path) -> None:
     )
 
 
+def test_bounds_in_the_figure_have_all_their_digits(folder: Path) -> None:
+    """Stiffnesses from 10000 to 200000 N/m, a wide range of masses, and a place below."""
+    names = {"k": (1e4, 2e5), "mass": (-5e-6, 1.5), "h": (-0.3, 0.25)}
+    case = kp.load(written(folder, ""))
+    best = kp.optimize(case, names, minimize="k", starts=1)
+    panels = [axes for axes in kp.plot.optimization(best).axes if axes.get_xlim() == (-0.04, 1.04)]
+    texts = [label.get_text() for label in panels[0].get_yticklabels()]
+    assert texts == ["k\n10000 … 200000 N/m", "mass\n−5·10⁻⁶ … 1.5 kg", "h\n−0.3 … 0.25 m"]
+
+
 def test_json(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     best = kp.optimize(kp.load(written(folder)), starts=1)
     assert run(["optimize", "lamp.toml", "--starts", "1", "--json"]) == 0

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 from kempe.draw.painter import Painting
+from kempe.draw.placing import place
 from matplotlib.axes import Axes
 from matplotlib.collections import Collection
 from matplotlib.colors import to_hex
@@ -92,12 +93,20 @@ def _patch(patch: Patch) -> list[Any]:
 
 
 def _painting(painting: Painting) -> list[Any]:
-    kinds: dict[str, int] = {}
+    """The number of parts of each kind, the boxes around them in points, and the words."""
+    kinds: dict[str, list[np.ndarray]] = {}
     for item in painting.items:
-        key = f"{item['kind']} {item['layer']}"
-        kinds[key] = kinds.get(key, 0) + 1
+        placed = place(
+            {**item, "points": np.reshape(item.get("points", []), (-1, 4))},
+            painting.poses,
+            painting.view(),
+        )
+        kinds.setdefault(f"{item['kind']} {item['layer']}", []).append(placed)
+    counts = {key: len(parts) for key, parts in kinds.items()}
+    corners = {key: np.concatenate(parts) for key, parts in kinds.items()}
+    boxes = {key: numbers([*at.min(axis=0), *at.max(axis=0)]) for key, at in corners.items()}
     words = [str(item["text"]) for item in painting.items if "text" in item]
-    return [kinds, words]
+    return [counts, words, boxes]
 
 
 def differences(found: Any, kept: Any, where: str = "") -> list[str]:

@@ -19,6 +19,7 @@ from matplotlib import pyplot
 from matplotlib.figure import Figure
 from plot.conftest import ROOT
 from plot.contents import contents, differences
+from plot.other_figures import OTHERS
 from plot.test_design_figures import FIGURES, figure_of, rocker, turn
 from plot.test_pictures import pinned
 from sweeps.test_figures import cloud, grid
@@ -113,6 +114,7 @@ DRAWN: dict[str, Callable[[Any], list[Figure]]] = {
     "pages of a design": of_design,
     "drive of a slide": of_slide,
     "cams": of_cams,
+    **OTHERS,
     "pages of the flagship": of_pages("flagship"),
     "pages of the slider-crank": of_pages("crank"),
 }

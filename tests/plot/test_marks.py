@@ -108,7 +108,7 @@ def test_a_number_on_the_axis_is_interpolated_in_its_unit_in_both_directions_of_
 def test_a_number_of_another_unit_is_apart_from_it() -> None:
     t = np.array([0.0, 0.004])
     assert Abscissa(TIME, t, t, Scale(1e-3, "ms")).words(0.0025) == "2.5 ms"
-    assert Abscissa(TIME, t, t, Scale(1e-3, "ms")).words(4e-3 * 1.5e-6) == "6e−06 ms"
+    assert Abscissa(TIME, t, t, Scale(1e-3, "ms")).words(4e-3 * 1.5e-6) == "6·10⁻⁶ ms"
 
 
 @pytest.mark.parametrize(

@@ -64,7 +64,7 @@ def test_turning_points_are_not_those_at_the_ends() -> None:
     [
         (-12345.0, 0.42, "−12.35 kN at 420 ms"),
         (1.0, 0.0, "0.001 kN at 0 ms"),
-        (-1e-7, 1.23456, "−1e−10 kN at 1235 ms"),
+        (-1e-7, 1.23456, "−1·10⁻¹⁰ kN at 1235 ms"),
     ],
 )
 def test_a_text_has_value_and_time_with_units(value: float, t: float, words: str) -> None:

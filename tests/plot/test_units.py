@@ -6,7 +6,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe import plot
-from kempe.draw.units import axis_label, scale
+from kempe.draw.units import axis_label, number, scale
 from kempe.model.drawing import measured, place_texts
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import text_to_path
@@ -49,6 +49,28 @@ def test_a_power_of_ten_is_a_factor_of_the_number() -> None:
     assert scale("m/s²", 5e3).written(4220) == "4.22·10³ m/s²"
     assert scale("1", 1e-5).written(5e-6) == "5·10⁻⁶"
     assert scale("N", 1e3).written(500) == "500 N"
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "text"),
+    [
+        (0.0, 4, "0"),
+        (-12.345, 4, "−12.35"),
+        (9999.4, 4, "9999"),
+        (10000.0, 4, "10000"),
+        (-123456.0, 4, "−123500"),
+        (1234567.0, 4, "1235000"),
+        (9999999.0, 4, "1·10⁷"),
+        (-2.5e12, 2, "−2.5·10¹²"),
+        (1e-4, 4, "0.0001"),
+        (1.25e-5, 4, "1.25·10⁻⁵"),
+        (-3e-9, 3, "−3·10⁻⁹"),
+        (np.float64(1e4), 4, "10000"),
+        (np.inf, 4, "inf"),
+    ],
+)
+def test_a_number_of_a_figure_has_no_e(value: float, digits: int, text: str) -> None:
+    assert number(value, digits) == text
 
 
 def test_a_text_lies_on_no_line_and_no_other_text() -> None:

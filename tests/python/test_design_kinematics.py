@@ -217,6 +217,14 @@ def test_toggle_positions_of_a_crank_rocker(crank_rocker: kp.Solution) -> None:
         design.toggles(crank_rocker, "crank.O.x")
 
 
+def test_toggles_at_outputs_and_at_the_ends_of_a_motion(engine: kp.Solution) -> None:
+    """The dead points of a piston, at which its rate is a rounding error or zero."""
+    found = design.toggles(engine, "piston.x")
+    assert [one.t for one in found] == pytest.approx([0.0, np.pi, 2 * np.pi], abs=1e-11)
+    assert [one.value for one in found] == pytest.approx([R + L, L - R, R + L], abs=1e-13)
+    assert all(("crank", "rod") in one.in_line for one in found)
+
+
 # --- instantaneous centres ------------------------------------------------------------------------
 
 

@@ -10,6 +10,7 @@ from kempe.report import summary
 from kempe.results.extremes import Sampled
 from kempe.results.settling import settling
 from kempe.results.summary import _turning_by_violation, residual
+from python.test_design_scales import SCALES, turned
 
 #: Times at which a motion is sampled.
 STEPS = 4001
@@ -218,3 +219,55 @@ def test_a_body_at_rest_has_its_angle() -> None:
     sol = kp.dynamics(m, kp.assemble(m, set={"slider.x": 0.2}), t_end=0.3)
     found = summary(sol)["settling"][0]
     assert found == {"body": "slider", "moves": False, "time": None, "angle": pytest.approx(0.5)}
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_a_summary_is_the_same_in_other_units(scale: tuple[float, float, float]) -> None:
+    mass, size, time = scale
+    force, energy = mass * size / time**2, mass * size**2 / time**2
+    one, other = summary(turned()), summary(turned(*scale))
+    assert one["settling"] == other["settling"] == []
+    assert one["mechanism"] == other["mechanism"]
+    factors = {"force": force, "torque": energy, "force_at": time, "torque_at": time}
+    assert [entry["joint"] for entry in one["peaks"]["reactions"]] == ["O", "A", "B", "S", "motor"]
+    for a, b in zip(one["peaks"]["reactions"], other["peaks"]["reactions"], strict=True):
+        assert {key: a[key] for key in a if key not in factors} == {
+            key: b[key] for key in b if key not in factors
+        }
+        for key, factor in factors.items():
+            assert b[key] == pytest.approx(a[key] * factor, rel=1e-6, abs=1e-9 * factor), key
+        assert a["torque"] or a["torque_at"] == 0.0
+        # pins carry no torque, not even that of a rounding error
+        assert (a["torque"] != 0.0) == (b["torque"] != 0.0) == (a["joint"] == "motor")
+    factors = {"largest_kinetic": energy, "work": energy, "scale": energy, "dissipated": energy}
+    for key, factor in (factors | {"largest_kinetic_at": time}).items():
+        expected = one["energy"][key] * factor
+        assert other["energy"][key] == pytest.approx(expected, rel=1e-7, abs=1e-9 * factor), key
+    assert other["energy"]["largest_imbalance"] < 1e-8
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_bodies_settle_that_no_driver_holds(size: float) -> None:
+    """A driven crank, a pendulum on its pin, and a slide that the crank moves by a rod."""
+    m = kp.Model("crank and pendulum", gravity=(0, -9.81 * size))
+    m.ground.points(O=(0, 0))
+    m.bar("crank", mass=1, length=0.2 * size, ends=("O", "A"))
+    m.bar("rod", mass=1, length=0.5 * size, ends=("A", "B"))
+    m.body("slide", mass=1, inertia=size**2, points={"B": (0, 0)})
+    m.bar("swing", mass=1, length=0.3 * size, ends=("A", "E"))
+    m.revolute("O", "ground.O", "crank.O")
+    m.revolute("A", "crank.A", "rod.A")
+    m.revolute("C", "crank.A", "swing.A")
+    m.revolute("B", "rod.B", "slide.B")
+    m.translational("S", "ground.O", "slide.B", axes=(0, 0))
+    m.coordinate_driver("motor", "crank.angle", value="2*t")
+    guess = {"slide.x": 0.6 * size, "crank.angle": 0.0}
+    start = kp.assemble(m, set={"swing.angle": -1.0}, guess=guess)
+    found = summary(kp.dynamics(m, start, t_end=0.1))
+    assert [entry["body"] for entry in found["settling"]] == ["swing"]
+    tree = m.tree()
+    del tree["drivers"]
+    free = kp.Model.from_tree(tree)
+    start = kp.assemble(free, set={"swing.angle": -1.0}, guess=guess)
+    names = [entry["body"] for entry in summary(kp.dynamics(free, start, t_end=0.1))["settling"]]
+    assert names == list(free.bodies)

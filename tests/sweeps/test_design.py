@@ -1,6 +1,7 @@
 """Designs: their values, their distributions, and errors with a remedy."""
 
 import sys
+from typing import Any
 
 import kempe as kp
 import numpy as np
@@ -42,6 +43,27 @@ def test_distributions_have_their_moments(kind: str) -> None:
     np.testing.assert_allclose(found[:, 1].std(), 2 / np.sqrt(12), rtol=0.03)
     np.testing.assert_allclose(np.log10(found[:, 2]).mean(), 5, atol=0.03)
     np.testing.assert_allclose((found[:, 3] == 2).mean(), 0.5, atol=0.03)
+
+
+@pytest.mark.parametrize(
+    ("values", "least", "middle", "largest"),
+    [
+        ({"uniform": [2.0, 5.0]}, 2.0, 3.5, 5.0),
+        ({"from": 8.0, "to": 2.0}, 8.0, 5.0, 2.0),
+        ({"from": 1.0, "to": 100.0, "scale": "log"}, 1.0, 10.0, 100.0),
+        ({"from": -4.0, "to": -1.0, "scale": "log"}, -4.0, -2.0, -1.0),
+        ([3.0, 1.0, 2.0], 3.0, 1.0, 2.0),
+        # 2^-53 of all values lie more than 8.2095 standard deviations beyond the mean
+        ({"normal": [26.0, 0.5]}, 26 - 8.20953615160139 / 2, 26.0, 26 + 8.20953615160139 / 2),
+    ],
+)
+def test_values_at_the_ends_and_in_the_middle(
+    values: Any, least: float, middle: float, largest: float
+) -> None:
+    (one,) = read_variables(CASE, {"L2": values})
+    found = one.at(np.array([0.0, 0.5, 1.0]))
+    np.testing.assert_allclose(found, [least, middle, largest], rtol=1e-13)
+    assert not one.of_start and one.is_log == ("scale" in values)
 
 
 def test_a_latin_hypercube_has_one_point_in_each_stratum() -> None:

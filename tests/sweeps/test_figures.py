@@ -43,6 +43,30 @@ def test_lines_are_over_the_first_variable(grid: kp.SweepResult) -> None:
     assert len(grid) == 12
 
 
+def test_variants_of_lines_that_failed_are_crosses() -> None:
+    """Couplers over 37 do not reach, for both stiffnesses; 26 does."""
+    both = kp.sweep(flagship(0.02), {"L2": [47, 26, 50], "k": [1e4, 1e6]}, ["pin.max"])
+    axes = kp.plot.sweep_lines(both, "pin.max")
+    lines = axes.get_lines()
+    crosses = [line for line in lines if line.get_marker() == "x"]
+    assert [list(line.get_xdata()) for line in crosses] == [[47, 50], [47, 50], []]
+    heights = [set(line.get_ydata()) for line in crosses[:2]]
+    assert heights[0] != heights[1] and max(map(max, heights)) < 0.2
+    assert all(line.get_transform() == axes.get_xaxis_transform() for line in crosses[:2])
+    courses = [line for line in lines if line.get_marker() != "x"]
+    assert [line.get_color() for line in crosses[:2]] == [one.get_color() for one in courses]
+    assert np.isnan(np.asarray(courses[0].get_ydata())).tolist() == [False, True, True]
+    legend = axes.get_legend()
+    assert legend is not None
+    words = [text.get_text() for text in legend.get_texts()]
+    assert words == ["10000", "1000000", "failed: 4"]
+    one = kp.sweep(flagship(0.02), {"L2": [26, 47]}, ["pin.max"])
+    legend = kp.plot.sweep_lines(one, "pin.max").get_legend()
+    assert legend is not None and [t.get_text() for t in legend.get_texts()] == ["failed: 1"]
+    good = kp.plot.sweep_lines(kp.sweep(flagship(0.02), {"L2": [25, 26]}, ["pin.max"]), "pin.max")
+    assert len(good.get_lines()) == 1 and good.get_legend() is None
+
+
 def test_a_map_of_a_grid_has_its_cells(grid: kp.SweepResult) -> None:
     axes = kp.plot.sweep_map(grid, "pin.max")
     mesh = axes.collections[0]

@@ -2,11 +2,13 @@
 
 import pickle
 import re
+from pathlib import Path
 
 import kempe as kp
 import numpy as np
 import pytest
 from kempe.sweeps.reasons import reason
+from sweeps.conftest import flagship
 
 
 def test_gaps_have_one_unit(case: kp.Case) -> None:
@@ -41,3 +43,15 @@ def test_an_impossible_model_has_a_reason_of_one_line(case: kp.Case) -> None:
     assert found.reasons == {0: first, 1: f"{first}; bodies.rocker.length: -2 m; must be > 0"}
     worker = pickle.loads(pickle.dumps(found._plan))
     assert worker.rows(found._design, 1).reasons == list(found.reasons.values())
+
+
+@pytest.mark.parametrize(("statistic", "native"), [("max", True), ("frequency", False)])
+def test_a_reason_does_not_name_the_file(statistic: str, native: bool, tmp_path: Path) -> None:
+    """On threads of the core, and in single runs, one after the other."""
+    path = tmp_path / "linkage.toml"
+    flagship().save(path)
+    measures = [f"crank.omega.{statistic}"]
+    found = kp.sweep(kp.load(path), {"L2": [-1.0, 47.0]}, measures)
+    assert found._plan.is_native == native
+    assert found.reasons[0] == "bodies.coupler.length: -1 m; must be > 0"
+    assert "joint C" in found.reasons[1] and "linkage" not in found.reasons[1]

@@ -96,8 +96,15 @@ def test_measures_without_slopes_keep_differences() -> None:
     run = kp.Dynamics(t_end=0.5, method=kp.GeneralizedAlpha(step=1e-3))
     case = kp.Case(rest().model, {"set": {"guide.displacement": 0.1}}, [run])
     assert kp.gradient(case, ["mass.x.final"], ["F"]).remarks
-    found = kp.tolerances(case, {"F": 0.04}, "mass.x.final", n=10)
-    assert found.slopes["F"] == pytest.approx((1 - np.cos(5 * 0.5)) / 50, rel=1e-4)
+    # x = F/k + (0.1 - F/k) cos √(k/m) t, at t = 0.5 s
+    widths = {"F": 0.03, "k": 0.7}
+    found = kp.tolerances(case, widths, "mass.x.final", n=10)
+    by_k = -4 * (1 - np.cos(2.5)) / 50**2 - 0.02 * np.sin(2.5) * 0.5 / (2 * np.sqrt(50 * 2))
+    assert found.slopes["F"] == pytest.approx((1 - np.cos(2.5)) / 50, rel=1e-4)
+    assert found.slopes["k"] == pytest.approx(by_k, rel=1e-3)
+    parts = {name: (found.slopes[name] * width) ** 2 for name, width in widths.items()}
+    for name, part in parts.items():
+        assert found.contributions[name] == pytest.approx(part / sum(parts.values()), rel=1e-9)
 
 
 @pytest.mark.parametrize("limit", [0.085, 0.07])

@@ -7,6 +7,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from design_problems.machines import SCALES, four_bar
+from kempe.design.weights import least
 from scipy.optimize import minimize
 
 
@@ -213,3 +214,33 @@ def test_two_counterweights_are_better_than_their_neighbours(of: str) -> None:
     for name in found.masses:
         for more in ((0.05, 0), (-0.05, 0), (0, 0.05), (0, -0.05)):
             assert mean(moved(name, more)) > best
+
+
+@pytest.mark.parametrize("m", [1, 2, 3])
+@pytest.mark.parametrize("linear", [True, False])
+def test_vectors_of_hand_made_squares(m: int, linear: bool) -> None:
+    """Known vectors leave nothing; beside them, and with noise, every step makes it worse."""
+    draw = np.random.default_rng(m)
+    columns = draw.standard_normal((m, 3, 40))
+    if linear:
+        columns[:, 2] = 0.0
+    known = draw.standard_normal(m) + 1j * draw.standard_normal(m)
+
+    def sum_of(vectors: np.ndarray) -> np.ndarray:
+        parts = np.stack([vectors.real, vectors.imag, np.abs(vectors)])
+        return np.asarray(np.einsum("ck,kcn->n", parts, columns))
+
+    found = least(-sum_of(known), columns, linear=linear)
+    np.testing.assert_allclose(found, known, rtol=1e-7)
+    base = -sum_of(known) + draw.standard_normal(40)
+    found = least(base, columns, linear=linear)
+    best = np.linalg.norm(base + sum_of(found))
+    for k in range(m):
+        for step in (1e-3, -1e-3, 1e-3j, -1e-3j):
+            beside = found + step * (np.arange(m) == k)
+            assert np.linalg.norm(base + sum_of(beside)) > best
+    # a vector without influence is zero, wherever it is
+    silent = np.insert(columns, 1, 0.0, axis=0)
+    both = least(-sum_of(known), silent, linear=linear)
+    np.testing.assert_allclose(both, np.insert(known, 1, 0.0), rtol=1e-7, atol=0)
+    assert not least(np.zeros(40), columns, linear=linear).any()

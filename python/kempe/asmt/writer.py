@@ -84,8 +84,7 @@ class _Writer:
     def case(self, case: Case) -> None:
         """The times of the first motion, and what a file cannot contain."""
         tree = case.tree()
-        for key in tree.keys() - _WRITTEN - {"parameters", "analyses"}:
-            self.left.append(key)
+        self.left += [key for key in tree if key not in _WRITTEN | {"parameters", "analyses"}]
         if tree.get("parameters"):
             self.left.append("parameters: their values are written in place of their names")
         motions = [k for k, e in case.analyses.items() if e["type"] in _KINDS and "t_end" in e]
@@ -96,8 +95,8 @@ class _Writer:
             self.sheet.t_end = value_of(self.model, entry["t_end"]) or 1.0
             step = value_of(self.model, entry.get("output_step", 0.0))
             self.sheet.step = step or self.sheet.t_end / 100
-            for key in entry.keys() - {"type", "t_end", "output_step"}:
-                self.left.append(f"analyses.{name}.{key}")
+            kept = {"type", "t_end", "output_step"}
+            self.left += [f"analyses.{name}.{key}" for key in entry if key not in kept]
 
     def text(self) -> str:
         """The text of the file."""

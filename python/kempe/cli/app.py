@@ -9,6 +9,7 @@ from typing import Any
 import typer
 from rich.console import Console
 from rich.text import Text
+from typer.core import TyperGroup
 
 from kempe import errors
 from kempe._version import __version__
@@ -64,8 +65,22 @@ ANALYSES = {
     "mobility": "Count freedoms, and find redundant joints and singular positions.",
 }
 
+
+class _Commands(TyperGroup):
+    """The commands; messages on their options begin with the fault."""
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run a command without the words that pydantic puts before a message."""
+        try:
+            return super().invoke(ctx)
+        except typer.BadParameter as error:
+            error.message = error.message.removeprefix("Value error, ")
+            raise
+
+
 app = typer.Typer(
     name="kempe",
+    cls=_Commands,
     help="Planar multibody mechanics: assembly, kinematics, dynamics and joint reactions.",
     no_args_is_help=True,
     context_settings={"help_option_names": ["-h", "--help"]},

@@ -162,8 +162,8 @@ def _names(solution: Solution, name: str) -> tuple[str, str]:
     driver = model.tree.get("drivers", {}).get(name, {})
     if name in model.drivers and "coordinate" in driver:
         return f"{name}.effort", rate_name(model, driver["coordinate"])
-    if name in model.forces and model.forces[name].measured:
-        of = model.forces[name].measured[0]
+    if name in model.forces and len(model.forces[name].measured) == 1:
+        (of,) = model.forces[name].measured
         return f"{name}.{'torque' if of.unit == 'rad' else 'force'}", f"{name}.{of.names[1]}"
     if name in (*model.drivers, *model.forces):
         raise ModelError(

@@ -13,7 +13,7 @@ import numpy as np
 
 from kempe.errors import ModelError
 from kempe.model.model import Model
-from kempe.model.values import refuse
+from kempe.model.values import refuse, two
 
 if TYPE_CHECKING:
     from kempe.case import Case
@@ -78,7 +78,8 @@ def gear_train(
         refuse("kind", f"{kind!r}; must be simple, compound or planetary")
     if not np.isfinite(ratio) or ratio == 0.0:
         refuse("ratio", f"{ratio!r}; must be a number other than 0")
-    low, high = (int(count) for count in teeth)
+    given = two(teeth, "teeth", "(least, largest), at least 3")
+    low, high = (int(x) if isinstance(x, int | np.integer) else 0 for x in given)
     if not 3 <= low <= high:
         refuse("teeth", f"{teeth!r}; must be (least, largest), at least 3")
     if kind != "simple" and ratio <= (1.0 if kind == "planetary" else 0.0):

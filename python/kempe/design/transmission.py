@@ -245,17 +245,13 @@ def toggles(solution: Solution, output: str) -> list[Toggle]:
     size = float(np.abs(motion[rate]).max(initial=0.0))
     if size <= _STILL * float(np.abs(motion.v).max(initial=0.0)):
         raise ModelError(f"{output} does not move", name=output, hint="name a moving quantity")
-    found = zeros(solution, lambda motion: _without_noise(motion[rate], size))
+    found = zeros(solution, lambda motion: motion[rate])
     states = [solution(float(t)) for t in found]
     return [
         Toggle(float(state.t), float(state[output]), _in_line(state), state)
         for state in states
         if isinstance(state, State)
     ]
-
-
-def _without_noise(values: Floats, size: float) -> Floats:
-    return np.where(np.abs(values) <= _STILL * size, 0.0, values)
 
 
 def _in_line(state: State) -> tuple[tuple[str, str], ...]:

@@ -26,6 +26,8 @@ _CUSTOM = {
 _DEGREE, _WRITTEN = math.pi / 180.0, (0.2, 1e6)
 #: Numbers without unit have a power of ten only outside of this range.
 _PLAIN = (1e-3, 1e4)
+#: Numbers with more digits before the point have a power of ten.
+_LONGEST = 7
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 #: Below this value, in SI units, a quantity is a rounding error and is shown as zero.
@@ -46,15 +48,24 @@ class Scale:
 
     def written(self, value: float) -> str:
         """A value in SI units as text, such as ``-12.3 kN`` or ``30°``, with a true minus sign."""
-        number = f"{value / self.divisor:.4g}".replace("-", "\N{MINUS SIGN}")
+        shown = number(value / self.divisor)
         if self.unit == "1":
-            return number
+            return shown
         gap = "" if self.unit == "°" else "·" if self.unit.startswith("10") else " "
-        return f"{number}{gap}{self.unit}"
+        return f"{shown}{gap}{self.unit}"
 
     def axis(self, symbol: str) -> str:
         """The label of an axis, such as ``F / kN``."""
         return axis_label(symbol, [self.unit])
+
+
+def number(value: float, digits: int = 4) -> str:
+    """A number for a figure, such as ``−12.3``, ``10000`` or ``1.2·10⁻⁵``, to some digits."""
+    mantissa, _, power = f"{value:.{digits}g}".partition("e")
+    if power and 0 < int(power) < _LONGEST:
+        mantissa, power = f"{float(f'{mantissa}e{power}'):.0f}", ""
+    shown = mantissa.replace("-", "\N{MINUS SIGN}")
+    return f"{shown}·{power_of_ten(int(power))}" if power else shown
 
 
 def axis_label(symbol: str, units: Sequence[str]) -> str:

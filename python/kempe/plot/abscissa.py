@@ -9,7 +9,7 @@ import numpy as np
 
 from kempe.base.arrays import Floats
 from kempe.design.locate import instants
-from kempe.draw.units import Scale
+from kempe.draw.units import Scale, number
 from kempe.plot.time_axis import TimeAxis, show_time
 from kempe.results.quantities import named
 from kempe.results.solution import Solution
@@ -51,8 +51,7 @@ class Abscissa:
         value = self.at(t)
         if abs(value) < 1e-6 * float(np.abs(self.shown).max()):
             value = 0.0  # an instant is found to rounding
-        number = f"{value:.4g}".replace("-", "−")
-        return f"{number}{gap}{self.unit.unit}"
+        return f"{number(value)}{gap}{self.unit.unit}"
 
     def label(self, axes: Axes) -> None:
         """Limits, ticks and label of the axis."""

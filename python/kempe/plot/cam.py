@@ -8,7 +8,7 @@ import numpy as np
 
 from kempe.base.arrays import Floats
 from kempe.design.cams import Cam
-from kempe.draw.units import scale
+from kempe.draw.units import number, scale
 from kempe.model.values import instance
 from kempe.plot import style
 from kempe.plot.page import Page
@@ -84,7 +84,7 @@ def _diagrams(panels: list[Axes], of: Cam) -> None:
         if order:
             axes.axhline(0.0, color="#888888", linewidth=0.7, zorder=0.5)
     rate = of.drive.speed / (2.0 * np.pi) * 60.0
-    panels[0].set_title(f"Motion at {rate:.4g} rpm", loc="left")
+    panels[0].set_title(f"Motion at {number(rate)} rpm", loc="left")
 
 
 def _profile(axes: Axes, of: Cam) -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from kempe.base.display_units import display
 from kempe.draw.scene import scene
+from kempe.draw.units import number
 from kempe.plot import style
 from kempe.plot.picture import drawn, paint
 from kempe.results.solution import Solution
@@ -47,10 +48,11 @@ def instant(state: State) -> str:
     """The time of a state, or the value of its driven quantity, such as ``crank.angle = 30°``."""
     of = state.variable
     if of.is_time:
-        return f"t = {float(state.t):g} s"
+        return f"t = {number(float(state.t), 6)} s"
     shown = display(of.unit, "deg") if of.unit == "rad" else display(of.unit)
     gap = "" if shown.symbol == "°" else " "
-    return f"{style.verbatim(of.name)} = {float(state.t) / shown.divisor:.6g}{gap}{shown.symbol}"
+    value = number(float(state.t) / shown.divisor, 6)
+    return f"{style.verbatim(of.name)} = {value}{gap}{shown.symbol}"
 
 
 def state_at(solution_or_state: Solution | State, t: float | None) -> State:

@@ -11,7 +11,7 @@ from kempe.design.coupler_curve import CouplerCurve
 from kempe.design.coupler_curve import coupler_curve as curve_of
 from kempe.design.places import Place
 from kempe.draw.scene import Scene, scene
-from kempe.draw.units import Scale, scale
+from kempe.draw.units import Scale, number, scale
 from kempe.plot import style
 from kempe.plot.picture import drawn, paint
 from kempe.results.solution import Solution
@@ -69,7 +69,7 @@ def over(made: Scene, path: Floats) -> Scene:
 def title(curve: CouplerCurve) -> str:
     """Such as ``Path of coupler.P: length 1.23 m, area −0.45 m²``."""
     unit = scale("m", curve.length)
-    told = [f"length {curve.length / unit.divisor:.4g} {unit.unit}"]
+    told = [f"length {number(curve.length / unit.divisor)} {unit.unit}"]
     if curve.area is not None:
         told.append(f"area {_area(curve, unit)}")
     if len(curve.cusps):
@@ -81,5 +81,4 @@ def _area(curve: CouplerCurve, unit: Scale) -> str:
     area = curve.area or 0.0
     if abs(area) < 1e-9 * curve.length**2:  # a rounding error of a line that runs back on itself
         area = 0.0
-    number = f"{area / unit.divisor**2:.4g}".replace("-", "−")
-    return f"{number} {unit.unit}²"
+    return f"{number(area / unit.divisor**2)} {unit.unit}²"

@@ -9,7 +9,7 @@ import numpy as np
 
 from kempe.base.arrays import Floats
 from kempe.design.duty import Duty, duty
-from kempe.draw.units import Scale, scale
+from kempe.draw.units import Scale, number, scale
 from kempe.plot import style
 from kempe.plot.abscissa import Abscissa, abscissa
 from kempe.plot.labelled import add_labels
@@ -46,8 +46,7 @@ def effort(
         for k, (words, value) in enumerate((("mean", found.mean), ("rms", found.rms)), 1):
             look = {**style.line(k), "linewidth": 1.0}
             shown_value = value if abs(value) > 1e-9 * found.rms else 0.0
-            number = f"{shown_value / unit.divisor:.4g}".replace("-", "−")
-            label = f"{words} {number} {unit.unit}"
+            label = f"{words} {number(shown_value / unit.divisor)} {unit.unit}"
             axes.axhline(value / unit.divisor, label=label, **look)
         across.label(axes)
         _room(axes, [*_bounded(found, shown, unit), 0.0, found.rms / unit.divisor])
@@ -89,7 +88,7 @@ def torque_speed(solution: Solution, drive: str, *, ax: Axes | None = None) -> A
         axes.set_xlabel(speed.axis("ω" if turning else "v"))
         axes.set_ylabel(unit.axis(f"${symbol}$"))
         power = scale(of.rate("W"), abs(found.peak_power.value))
-        told = f"{found.peak_power.value / power.divisor:.4g} {power.unit}".replace("-", "−")
+        told = f"{number(found.peak_power.value / power.divisor)} {power.unit}"
         title = f"Duty of {style.short(drive)}: peak power {told}{remark(found.choice)}"
         titled(axes, title, note(found.unbounded_at, found.variable))
         return axes
@@ -121,7 +120,6 @@ def _mark_peak(axes: Axes, found: Duty, across: Abscissa, unit: Scale) -> None:
     x, y = across.at(found.peak.t), found.peak.value / unit.divisor
     colour = style.line(0)["color"]
     axes.scatter([x], [y], s=11.0, facecolor="white", edgecolor=colour, linewidth=1.0, zorder=4)
-    number = f"{y:.4g}".replace("-", "−")
-    words = f"{number} {unit.unit} at {across.words(found.peak.t)}"
+    words = f"{number(y)} {unit.unit} at {across.words(found.peak.t)}"
     path = np.column_stack([across.shown, found.effort / unit.divisor])
     add_labels(axes, [np.array([x, y])], [words], [path])

@@ -28,7 +28,7 @@ from kempe.draw.items import (
 )
 from kempe.draw.palette import verbatim
 from kempe.draw.scene import Scene, scene
-from kempe.draw.units import scale
+from kempe.draw.units import number, scale
 from kempe.plot import style
 from kempe.plot.configuration import instant
 from kempe.plot.picture import drawn, paint
@@ -178,7 +178,7 @@ def _add_force(made: Display, arrow: _Arrow, most: float, centre: Floats) -> Non
 def _valued(unit: str, value: float) -> str:
     """A number with the unit that keeps it short."""
     shown = scale(unit, abs(value))
-    return f"{value / shown.divisor:.4g} {shown.unit}".replace("-", "−")
+    return f"{number(value / shown.divisor)} {shown.unit}"
 
 
 def _add_moment(made: Display, name: str, place: Floats, moment: float) -> None:

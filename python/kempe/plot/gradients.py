@@ -7,6 +7,7 @@ from functools import partial
 from math import isfinite
 from typing import TYPE_CHECKING
 
+from kempe.draw.units import number
 from kempe.errors import ModelError
 from kempe.model.values import instance, texts
 from kempe.plot import style
@@ -94,8 +95,7 @@ def _bars(axes: Axes, measure: str, ordered: Sequence[Slope]) -> None:
 def _beside(one: Slope, least: float) -> str:
     """The number beside a bar, 0 below the least one, or the words in its place."""
     if isfinite(one.relative):
-        number = one.relative if abs(one.relative) > least else 0.0
-        return f"{number:.3g}".replace("-", "−")
+        return number(one.relative if abs(one.relative) > least else 0.0, 3)
     return "the measure is 0" if isfinite(one.value) else _NONE
 
 

@@ -11,6 +11,7 @@ from kempe.analyses.modes import ModesResult
 from kempe.draw.items import Item
 from kempe.draw.oscillation import bounds_of
 from kempe.draw.scene import Scene, scene
+from kempe.draw.units import number
 from kempe.plot import style
 from kempe.plot.page import Page
 from kempe.plot.picture import drawn
@@ -70,8 +71,8 @@ def _title(shape: ModeShape) -> str:
     s, about = shape.eigenvalue, f"Mode {shape.number + 1}"
     if s.imag > 0.0:
         ratio = -s.real / abs(s) + 0.0
-        return f"{about}: {s.imag / (2.0 * np.pi):.4g} Hz, damping ratio {ratio:.3g}"
-    return f"{about}: s = {s.real:.4g} 1/s"
+        return f"{about}: {number(s.imag / (2.0 * np.pi))} Hz, damping ratio {number(ratio, 3)}"
+    return f"{about}: s = {number(s.real)} 1/s"
 
 
 def _shape(shape: ModeShape) -> Figure:

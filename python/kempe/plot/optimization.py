@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from kempe.base.arrays import Floats
 from kempe.base.display_units import display
+from kempe.draw.units import number
 from kempe.errors import KempeError
 from kempe.model.values import instance
 from kempe.plot import style
@@ -147,7 +148,7 @@ def _candidates(axes: Axes, result: Optimum) -> None:
     texts = []
     for bound in problem.bounds:
         unit = display(result.units[bound.name])
-        ends = " … ".join(f"{x / unit.divisor:.4g}" for x in (bound.least, bound.largest))
+        ends = " … ".join(number(x / unit.divisor) for x in (bound.least, bound.largest))
         log = ", log" if bound.log else ""
         texts.append(f"{style.short(bound.name, 20)}\n{ends} {unit.symbol}".rstrip() + log)
     axes.set_yticks(rows, texts)

@@ -9,7 +9,7 @@ import numpy as np
 from kempe.base.arrays import Floats
 from kempe.design.pin_loads import PinLoad
 from kempe.design.pin_loads import pin_load as load_of
-from kempe.draw.units import Scale, scale
+from kempe.draw.units import Scale, number, scale
 from kempe.plot import style
 from kempe.plot.abscissa import Abscissa, abscissa
 from kempe.plot.labelled import add_labels
@@ -104,7 +104,7 @@ def _names(axes: Axes, found: PinLoad, tip: Floats, across: Abscissa, unit: Scal
     size = float(np.hypot(*np.ptp(tip[known], axis=0))) or 1.0
     points, words = (
         [tip[k]],
-        [f"{most.value / unit.divisor:.4g} {unit.unit} at {across.words(most.t)}"],
+        [f"{number(most.value / unit.divisor)} {unit.unit} at {across.words(most.t)}"],
     )
     for place in np.linspace(0, len(tip) - 1, _NAMED + 1).round().astype(int)[:-1]:
         if all(np.hypot(*(tip[place] - at)) > 0.04 * size for at in points):

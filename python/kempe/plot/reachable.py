@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from kempe.draw.units import number
 from kempe.plot import style
 from kempe.plot.page import Page
 from kempe.plot.picture import at_rest, drawn, frame, paint
@@ -43,7 +44,7 @@ def reachable(result: ReachableResult) -> Figure:
     height = wide * float((high - low)[1] / (high - low)[0]) + _ABOVE + _BELOW
     made = style.figure(height, layout=None)
     axes = style.axes_at(made, (_LEFT, _BELOW, wide, height - _ABOVE - _BELOW), height)
-    display = drawn(axes, shown, f"{result.of} reaches {result.area:.4g} m²")
+    display = drawn(axes, shown, f"{result.of} reaches {number(result.area)} m²")
     metres = shown["length"]["metres"]
     corners = [np.concatenate([one, one[:1]]) / metres for one in result.boundary]
     if corners:

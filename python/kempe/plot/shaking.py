@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.design.shaking import shaking
-from kempe.draw.units import scale
+from kempe.draw.units import number, scale
 from kempe.plot import style
 from kempe.plot.abscissa import abscissa
 from kempe.plot.labelled import add_labels
@@ -53,7 +53,9 @@ def shaking_force(solution: Solution, *, over: str | None = None, ax: Axes | Non
         places = np.linspace(0, len(tip) - 1, _MARKS + 1).round().astype(int)
         axes.plot(*tip[places].T, ".", color=look["color"], markersize=4.0, zorder=3.0)
         points = [tip[k]]
-        words = [f"{size[k] / unit.divisor:.4g} {unit.unit} at {across.words(float(found.t[k]))}"]
+        words = [
+            f"{number(size[k] / unit.divisor)} {unit.unit} at {across.words(float(found.t[k]))}"
+        ]
         room = 0.05 * (float(np.hypot(*np.ptp(tip, axis=0))) or 1.0)
         for place in np.linspace(0, len(tip) - 1, _NAMED + 1).round().astype(int)[:-1]:
             if all(np.hypot(*(tip[place] - at)) > room for at in points):

@@ -11,6 +11,7 @@ from kempe.base.arrays import Floats
 from kempe.base.display_units import display
 from kempe.draw.items import PIN, arrow_head, fill, line, on_body
 from kempe.draw.scene import scene
+from kempe.draw.units import number
 from kempe.plot import style
 from kempe.plot.picture import drawn, paint
 
@@ -53,7 +54,7 @@ def gaps(study: Study, ax: Axes) -> None:
     largest = float(np.hypot(*along.T).max(initial=0.0))
     factor = magnification(largest, float((high - low).max()))
     time, unit = display("s"), display("m", "mm")
-    instant = f"t = {float(state.t) / time.divisor:.3g} {time.symbol}"
+    instant = f"t = {number(float(state.t) / time.divisor, 3)} {time.symbol}"
     when = f"{instant}, gaps magnified {factor:g} times"
     made = drawn(ax, shown, style.verbatim(f"{outcome.variant.name}\n{when}"))
     for name, point, gap in zip(state.compiled.joints, begin, along, strict=True):
@@ -69,7 +70,7 @@ def gaps(study: Study, ax: Axes) -> None:
         made.add([fill(name, frame, edge, "paper", layer=PIN)])
         made.add([line(name, frame, shaft, "reaction", _WIDTH, layer=PIN)])
         made.add([fill(name, frame, head, "reaction", layer=PIN)])
-        made.name("joint", f"{name}: {length / unit.divisor:.3g} {unit.symbol}", frame)
+        made.name("joint", f"{name}: {number(length / unit.divisor, 3)} {unit.symbol}", frame)
     paint(ax, made)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from kempe.base.arrays import Floats
 from kempe.base.display_units import display
 from kempe.base.names import entry
-from kempe.draw.units import Scale, axis_label, scale
+from kempe.draw.units import Scale, axis_label, number, scale
 from kempe.errors import ModelError
 from kempe.plot import style
 from kempe.plot.legend import beside
@@ -26,12 +26,16 @@ if TYPE_CHECKING:
 _LINES = 10
 #: The colours of a map from low to high: even in lightness, for any colour vision and in print.
 MAP = "cividis"
+#: The cross of a variant that failed, in lines.
+_CROSS: dict[str, Any] = {"marker": "x", "linestyle": "", "markersize": 4.0, "markeredgewidth": 0.8}
 #: A range from one positive value to this multiple of it has colours of a logarithmic scale.
 _WIDE = 100.0
 
 
 def sweep_lines(result: SweepResult, measure: str, *, ax: Axes | None = None) -> Axes:
     """Draw a measure over the first variable; with two variables, a line for each second value.
+
+    A variant that failed is a gap of its line, with a cross of the same colour below.
 
     Args:
         result: the result of ``kp.sweep``.
@@ -52,19 +56,31 @@ def sweep_lines(result: SweepResult, measure: str, *, ax: Axes | None = None) ->
             hint="use sweep_map or sweep_scatter",
         )
     with style.on(ax) as axes:
-        if not others:
-            _line(axes, x, values, 0)
-        for k, level in enumerate(lines.tolist()):
-            chosen = of_lines == level
-            _line(axes, x[chosen], values[chosen], k, f"{level:.4g}")
+        chosen = [of_lines == level for level in lines] if others else [np.full(len(x), True)]
+        for k, rows in enumerate(chosen):
+            label = number(float(lines[k])) if others else ""
+            _line(axes, x[rows], values[rows], k, label)
+            _failed(axes, x[rows & ~result.succeeded], k)
         _axis(axes, "x", result, first)
         axes.set_ylabel(shown.axis(style.verbatim(signed(result, measure))))
         explained(axes, result, measure)
+        failed = int((~result.succeeded).sum())
+        if failed:
+            axes.plot([], [], color="black", label=f"failed: {failed}", **_CROSS)
         if others:
             beside(axes)
             title = _labelled(style.short(others[0].name), unit)
             axes.get_legend().set_title(title)  # type: ignore[union-attr]
+        elif failed:
+            axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2)
         return axes
+
+
+def _failed(axes: Axes, x: Floats, k: int) -> None:
+    """Crosses near the lower edge, a row for each line, for its variants that failed."""
+    if len(x):
+        low, across = np.full(len(x), 0.03 * (k + 1)), axes.get_xaxis_transform()
+        axes.plot(x, low, color=style.line(k)["color"], transform=across, **_CROSS)
 
 
 def _line(axes: Axes, x: Floats, y: Floats, k: int, label: str = "") -> None:
@@ -182,7 +198,7 @@ def sweep_histogram(
             axes.axvline(mean, color="black", linewidth=1.0)
             for side in (-1.0, 1.0):
                 axes.axvline(mean + side * deviation, color="black", linewidth=0.8, linestyle="--")
-            told = f"{mean:.5g} ± {deviation:.3g} {shown.unit}, {len(good)} variants"
+            told = f"{number(mean, 5)} ± {number(deviation, 3)} {shown.unit}, {len(good)} variants"
             titled(axes, style.verbatim(told), meaning(result, measure))
         axes.set_xlabel(shown.axis(style.verbatim(signed(result, measure))))
         axes.set_ylabel("variants / 1")
@@ -219,7 +235,7 @@ def sweep_contributions(
         axes.set_yticks(places, [style.short(label) for label, _ in ordered])
         for place, (_, x) in zip(places, ordered, strict=True):
             axes.annotate(
-                f"{100.0 * x:.3g} %",
+                f"{number(100.0 * x, 3)} %",
                 (100.0 * x, place),
                 (3, 0),
                 va="center",

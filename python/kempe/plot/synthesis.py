@@ -82,13 +82,13 @@ def _panel(axes: Axes, found: Found, one: Candidate, number: int) -> None:
             axes.add_patch(_plate(corners))
         else:
             axes.plot(*np.array(corners).T, zorder=3.0, **_LINK)
-    for name in at.keys() & set("ODG"):
-        axes.plot(*at[name], "^", color="#000000", markersize=6.0, zorder=3.1)
     if isinstance(one, SliderCrank):
         axes.plot(*places[1].T, color="#7F7F7F", linewidth=3.0, alpha=0.5, zorder=2.4)
-    for name in at.keys() - set("ODGP"):
-        axes.plot(*at[name], "o", markersize=4.0, **_PIN)
-    for name in at.keys() - {"P"}:
+    for name in (name for name in at if name != "P"):
+        if name in "ODG":
+            axes.plot(*at[name], "^", color="#000000", markersize=6.0, zorder=3.1)
+        else:
+            axes.plot(*at[name], "o", markersize=4.0, **_PIN)
         axes.annotate(
             name,
             tuple(at[name].tolist()),

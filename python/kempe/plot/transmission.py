@@ -10,6 +10,7 @@ import numpy as np
 from kempe.base.arrays import Floats
 from kempe.design.places import Place
 from kempe.design.transmission import transmission_angle as angle_of
+from kempe.draw.units import number
 from kempe.plot import style
 from kempe.plot.abscissa import abscissa
 from kempe.plot.labelled import add_labels
@@ -58,12 +59,12 @@ def transmission_angle(
         axes.set_ylabel("μ / °")
         axes.set_title(
             f"Transmission angle at {style.short(joint)}: at least "
-            f"{np.degrees(found.worst.value):.4g}°, at {across.words(found.worst.t)}",
+            f"{number(np.degrees(found.worst.value))}°, at {across.words(found.worst.t)}",
             loc="left",
         )
         marks = list(dict.fromkeys([found.limits.least, found.limits.largest]))
         points = [_mark(axes, extreme, across.at(extreme.t)) for extreme in marks]
-        words = [f"{np.degrees(extreme.value):.4g}°" for extreme in marks]
+        words = [f"{number(np.degrees(extreme.value))}°" for extreme in marks]
         add_labels(axes, points, words, [np.column_stack([across.shown, angle])])
         return axes
 

@@ -119,7 +119,7 @@ def tolerances(
         ModelError: a name or number is invalid, a value at the start is not a number, or the case
             itself or a variant for a slope fails; the message has its reason.
     """
-    given = numbers(mapping(deviations, "deviations", "{'L2': 0.05}"), "deviations")
+    given = _given(deviations, "deviations", "{'L2': 0.05}")
     middle = present(case, given)  # the sweep refuses unknown names
     spread = {name: {"normal": [middle[name], x]} for name, x in given.items()}
     read = limits_of(case, subject_to, analysis)
@@ -142,6 +142,17 @@ def tolerances(
     first = replace(plan, wanted=plan.wanted[:1])
     indices = {} if sobol is None else shares(first, middle, widths.tolist(), sobol, seed or 0)
     return _told(sample, (nominal, slopes, widths), (corners, held, indices))
+
+
+def _given(values: Mapping[str, float], name: str, form: str) -> dict[str, float | str]:
+    """Numbers by the name of a variable, at least one.
+
+    Raises:
+        ModelError: there is none, or one is not a number.
+    """
+    if not mapping(values, name, form):
+        refuse(name, f"there are none; give one: {form}")
+    return numbers(values, name)
 
 
 def _told(
@@ -293,7 +304,7 @@ def allocate(
     Raises:
         ModelError: an argument is invalid, or the value of the case is the limit already.
     """
-    given = numbers(mapping(costs, "costs", "{'L2': 1}"), "costs")
+    given = _given(costs, "costs", "{'L2': 1}")
     try:
         limit = float(limit)
     except (TypeError, ValueError):

@@ -11,7 +11,6 @@ import numpy as np
 
 from kempe.base.arrays import Floats
 from kempe.base.names import unknown
-from kempe.errors import ModelError
 from kempe.model.values import instance, mapping, refuse
 
 if TYPE_CHECKING:
@@ -26,8 +25,9 @@ _FORMS = (
 )
 #: Largest number of variants of a sweep; a table of ten columns then has 0.8 GB.
 MOST = 10_000_000
-#: Least distance from the ends of the unit interval for values of a normal distribution.
-_EDGE = 2.0**-54
+#: Least distance from the ends of the unit interval for values of a normal distribution; a number
+#: nearer to 1 is rounded to 1.
+_EDGE = 2.0**-53
 
 
 @dataclass(frozen=True)
@@ -87,25 +87,17 @@ def read_variables(case: Case, variables: Mapping[str, Values]) -> list[Variable
     Raises:
         ModelError: a name is neither a parameter nor a coordinate or rate, or values are invalid.
     """
-    form = "{'L2': [25, 26, 27]}"
-    given = mapping(variables, "variables", form)
-    check_names(case, given, form)
+    given = mapping(variables, "variables", "{'L2': [25, 26, 27]}")
+    check_names(case, given)
     return [_variable(name, values) for name, values in given.items()]
 
 
-def check_names(case: Case, names: Collection[str], form: str) -> None:
+def check_names(case: Case, names: Collection[str]) -> None:
     """Refuse names of variables that cannot be parameters, coordinates or rates.
 
-    Args:
-        case: the case.
-        names: the names.
-        form: an example of variables.
-
     Raises:
-        ModelError: there are none, or one is neither a parameter nor has a point.
+        ModelError: a name is neither a parameter nor has a point.
     """
-    if not names:
-        raise ModelError("variables: there are none", hint=f"give one: {form}")
     compiled = case.model.compile()
     known = [*compiled.parameters, *compiled.column_names(), *compiled.rate_names()]
     for name in names:

@@ -87,8 +87,6 @@ def read_wanted(
         else Wanted(text, text, "", unit_of(model, entry, text))
         for text in texts(measures, "measures")
     ]
-    if not found:
-        raise ModelError("measures: there are none", hint='give one: measures=["C.force.max"]')
     if len({one.text for one in found}) < len(found):
         refuse("measures", "one of them is given twice")
     return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -112,7 +112,7 @@ def check(case: Case) -> str:
         table = {str(_t(case)): [0.0, 1.0], **headers}
         columns, sigma, shift = section["columns"], section.get("sigma"), section.get("shift")
         data = Data(table, _t(case), columns, sigma, shift)
-        check_names(case, [name for name in bounds if name != shift], "{'J': None}")
+        check_names_in(case, data, bounds)
         experiments(case, data, list(bounds), section.get("analysis"))
     except ModelError as error:
         error.args = (located(case, "fit", str(error.args[0])), *error.args[1:])
@@ -150,20 +150,23 @@ def _bounds(name: str, of: Any) -> tuple[float, float]:
     return ends[0], ends[1]
 
 
-def check_names_in(case: Case, data: Any, names: Iterable[str]) -> None:
-    """Refuse a parameter that no case has, and no data as their shift.
+def check_names_in(case: Case, data: Any, names: Collection[str]) -> None:
+    """Refuse a parameter that no case has, and no data as their shift; and times alone.
 
     Raises:
-        ModelError: there is one.
+        ModelError: there is one, or no parameter is one of a case.
     """
     pairs = data if isinstance(data, list | tuple) else [(case, data)]
     found = [pair for pair in pairs if isinstance(pair, list | tuple) and len(pair) == 2]
     shifts = {getattr(of, "shift", None) for _, of in found}
     cases = [own for own, _ in found if hasattr(own, "model")] or [case]
+    in_cases = {name for one in cases for name in one.model.parameters}
+    if not any(name in in_cases or name not in shifts for name in names):
+        hint = "add a parameter of the model or a value at the start"
+        raise ModelError("parameters: they are only times of the data", hint=hint)
     for name in names:
-        known = "." in name or any(name in one.model.parameters for one in cases)
-        if name not in shifts and not (known and "." not in name):
-            check_names(cases[0], [name], "{'J': None}")
+        if name not in shifts and ("." in name or name not in in_cases):
+            check_names(cases[0], [name])
 
 
 def _priors(

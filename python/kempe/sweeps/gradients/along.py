@@ -60,7 +60,7 @@ class SlopesAlong:
         made = {"set": dict(origin.set), "guess": dict(origin.guess)}
         own = model.model if model.functions else Model.of_compiled(model)
         case = Case(own, made, origin.analyses)
-        check_names(case, names, '["L2"]')
+        check_names(case, names)
         plan = Plan(case, list(origin.analyses)[-1], names, ())
         row = fixed(list(present(case, names).values()))
         for of, told in in_analyses(plan, row).items():

@@ -36,7 +36,7 @@ def planned(case: Case, *given: Any) -> Plan:
     section = case.gradient
     asked = complete("gradient", {key: of or section.get(key) for key, of in pairs})
     names = texts(asked["variables"], "variables")
-    check_names(case, names, '["L2"]')
+    check_names(case, names)
     if len(set(names)) < len(names):
         refuse("variables", "one of them is given twice")
     refuse_derivatives(case.model.compile().functions)

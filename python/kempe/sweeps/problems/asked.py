@@ -74,7 +74,7 @@ def problem_of(case: Case, asked: Mapping[str, Any]) -> Problem:
         ModelError: a variable, a formula, a unit or the analysis is invalid.
     """
     bounds = [_bound(name, of) for name, of in _table(asked["variables"], "variables").items()]
-    check_names(case, [bound.name for bound in bounds], "{'L2': (20, 30)}")
+    check_names(case, [bound.name for bound in bounds])
     names = tuple(bound.name for bound in bounds)
     analysis = chosen(case, asked["analysis"])
     plan = Plan(without_later(case, analysis), analysis, names, ())
