@@ -263,3 +263,33 @@ def test_scipy_is_named_where_it_is_missing(monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setitem(sys.modules, "scipy.optimize", None)
     with pytest.raises(kp.ModelError, match=r"pip install 'kempe\[design\]'"):
         kp.optimize(dyad(0.8, 0.7), {"a": (0.6, 0.9)}, minimize="one.C.y")
+
+
+def crank_and_rod(size: float) -> kp.Case:
+    """A driven slider-crank with a crank of 0.1 sizes; it turns if the rod is longer."""
+    m = kp.Model("engine", parameters={"l": 0.3 * size})
+    m.ground.points(O=(0, 0))
+    m.bar("crank", mass=1, length=0.1 * size, ends=("A", "B"))
+    m.bar("rod", mass=1, length="l", ends=("B", "C"))
+    m.body("slide", mass=1, inertia=1, points={"P": (0, 0)})
+    m.revolute("main", "ground.O", "crank.A")
+    m.revolute("big_end", "crank.B", "rod.B")
+    m.revolute("small_end", "rod.C", "slide.P")
+    m.translational("guide", "ground.O", "slide.P")
+    m.coordinate_driver("motor", "crank.angle", value="t")
+    start = {"guess": {"slide.x": 0.4 * size}}
+    return kp.Case(m, start, [kp.Kinematics(t_end=6.3, output_step=0.7, name="turn")])
+
+
+@pytest.mark.parametrize("size", [1.0, 1e-3, 1e3])
+def test_a_search_that_ends_beside_failed_runs_says_so(size: float) -> None:
+    case, least = crank_and_rod(size), "slide.x.max"
+    best = kp.optimize(case, {"l": (0.05 * size, 0.5 * size)}, minimize=least)
+    assert best.values["l"] == pytest.approx(0.1 * size, rel=1e-3)
+    (told,) = best.remarks
+    assert "beside the best values fail (crank cannot pass" in told
+    for search in (
+        {"variables": {"l": (0.15 * size, 0.5 * size)}, "minimize": least},
+        {"variables": {"l": (0.05 * size, 0.5 * size)}, "target": {least: 0.35 * size}},
+    ):
+        assert not kp.optimize(case, **search).remarks  # type: ignore[arg-type]

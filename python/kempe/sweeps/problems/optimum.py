@@ -35,6 +35,8 @@ _TIGHT = 1e-4
 #: Distances from a bound, as parts of its range, with which a value is at the bound: always, and if
 #: the bound has a worth, because searches end with rounding errors.
 _AT, _NEAR = 1e-9, 1e-6
+#: Runs nearer than this part of the ranges of the variables lie beside each other.
+_NEAR = 1e-4
 #: The weight with which the shares of the load cases make up 1.
 _WEIGHT = 1e3
 
@@ -101,7 +103,8 @@ class Optimum:
         runs: number of runs; one with derivatives counts as one.
         success: whether all limits hold.
         message: how the search ended.
-        remarks: load cases that are equally bad, so that ``active`` weighs them.
+        remarks: load cases that are equally bad, so that ``active`` weighs them; whether runs
+            beside the best values fail.
         units: SI units of variables and columns; empty for an unknown one.
     """
 
@@ -122,7 +125,7 @@ class Optimum:
         self.runs = len(history)
         self.success = self._run.holds
         self.message = message or _told(problem, self._run)
-        self.remarks = _remarks(problem, self._run)
+        self.remarks = (*_remarks(problem, self._run), *_beside(problem, self._run, history))
         plan = problem.plan
         known = {name: plan.unit_of(name) for name in plan.names}
         known |= dict(zip(problem.columns.labels, problem.columns.units, strict=True))
@@ -377,3 +380,16 @@ def _short(value: float) -> str:
     """A number as in a file: ``1e7``, not ``1e+07``."""
     mantissa, _, power = f"{value:.6g}".partition("e")
     return f"{mantissa}e{int(power)}" if power else mantissa
+
+
+def _beside(problem: Problem, run: Run, history: Sequence[tuple[int, int, Run]]) -> tuple[str, ...]:
+    """Whether runs beside the best values failed, so that the search could not go on there."""
+    if problem.others:
+        return ()
+    best = problem.shares(run.row)
+    failed = (one for *_, one in history if one.reason)
+    reasons = [one.reason for one in failed if np.abs(problem.shares(one.row) - best).max() < _NEAR]
+    if not reasons:
+        return ()
+    told = f"runs beside the best values fail ({reasons[-1]})"
+    return (f"{told}: the search ended there; other starts may find better values",)
