@@ -288,8 +288,8 @@ def test_a_search_that_ends_beside_failed_runs_says_so(size: float) -> None:
     assert best.values["l"] == pytest.approx(0.1 * size, rel=1e-3)
     (told,) = best.remarks
     assert "beside the best values fail (crank cannot pass" in told
-    for search in (
+    for asked in (
         {"variables": {"l": (0.15 * size, 0.5 * size)}, "minimize": least},
         {"variables": {"l": (0.05 * size, 0.5 * size)}, "target": {least: 0.35 * size}},
     ):
-        assert not kp.optimize(case, **search).remarks  # type: ignore[arg-type]
+        assert not kp.optimize(case, **asked).remarks  # type: ignore[arg-type]
