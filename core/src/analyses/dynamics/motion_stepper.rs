@@ -141,6 +141,7 @@ impl<'a> MotionStepper<'a> {
 
     /// The pieces of switches that the last step held, from the given step on, which `ends` a phase at its beginning. None
     /// for a model without switches.
+    #[inline(never)]
     pub fn held(&mut self, step: usize, ends: bool) -> Option<HeldPieces> {
         let t = self.t();
         let causes = self.switching.as_mut()?.take_causes(t, ends);

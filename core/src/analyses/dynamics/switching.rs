@@ -238,6 +238,7 @@ impl Switching {
     }
 
     /// The switches that change at `t`, with their new pieces.
+    #[inline(never)]
     fn due_at(&self, t: f64) -> Vec<(usize, f64)> {
         let due = self.due.iter().filter(|due| due.t == t).flat_map(|due| &due.changes);
         due.chain(self.planned_at(t).into_iter().flatten()).copied().list()
