@@ -202,3 +202,19 @@ def test_a_brake_fades_beside_a_free_wheel_without_load(scale: tuple[float, floa
     assert sol.events["brake.stick"].t * rate == pytest.approx([stop], rel=1e-9)
     assert sol["drum.omega"][-1] == pytest.approx(0.0, abs=1e-12 * rate)
     assert sol["drum.angle"][-1] == pytest.approx(0.5 * stop - stop**2 / 2 + 0.05 * stop**3)
+
+
+@pytest.mark.parametrize("inertia, rate", SCALES)
+def test_the_power_of_a_brake_that_holds_in_the_end(inertia: float, rate: float) -> None:
+    m = kp.Model("brake", gravity=(0, 0))
+    m.ground.points(O=(0, 0))
+    m.body("wheel", mass=1.0, inertia=inertia, points={"O": (0, 0)})
+    m.revolute("pin", "ground.O", "wheel.O")
+    torque = inertia * rate**2
+    m.clutch("brake", "ground", "wheel", capacity=torque)
+    m.measures(lost="brake.power")
+    start = kp.assemble(m, {"wheel.angle": 0, "wheel.omega": 2 * rate})
+    lost = kp.dynamics(m, start, t_end=5 / rate).measure("lost")
+    energy = inertia * (2 * rate) ** 2 / 2
+    assert [lost.min, lost.max, lost.final] == pytest.approx([-2 * torque * rate, 0, 0])
+    assert lost.integral == pytest.approx(-energy, rel=1e-9)

@@ -129,12 +129,13 @@ impl Signal {
             Self::Line { id: ElementId::Force(k) } | Self::Force { k, .. } => {
                 model.forces[*k].needs_multipliers()
             }
-            Self::ForcePower(k) | Self::ForceEnergy(k) => {
+            Self::ForceEnergy(k) => {
                 model.forces[*k].reaction.is_some() || model.forces[*k].partner.is_some()
             }
-            Self::ForceResult { k, .. } | Self::ForceDissipated(k) | Self::ForceDissipating(k) => {
-                model.forces[*k].needs_multipliers()
-            }
+            Self::ForceResult { k, .. }
+            | Self::ForcePower(k)
+            | Self::ForceDissipated(k)
+            | Self::ForceDissipating(k) => model.forces[*k].needs_multipliers(),
             Self::Constant(_) | Self::State(_) | Self::Energy(_) => false,
             Self::OfBeam { pieces, .. } => matches!(pieces[..], [ElementId::Constraint(_), ..]),
             Self::Drift { .. } => false,

@@ -139,9 +139,12 @@ impl<'a> MotionStepper<'a> {
         Ok(stepper)
     }
 
-    /// The pieces of switches that the last step held, from the given step on. None for a model without switches.
-    pub fn held(&mut self, step: usize) -> Option<HeldPieces> {
-        let causes = std::mem::take(&mut self.switching.as_mut()?.causes);
+    /// The pieces of switches that the last step held, from the given step on, which `ends` a phase at its beginning. None
+    /// for a model without switches.
+    #[inline(never)]
+    pub fn held(&mut self, step: usize, ends: bool) -> Option<HeldPieces> {
+        let t = self.t();
+        let causes = self.switching.as_mut()?.take_causes(t, ends);
         Some(HeldPieces { step, pieces: self.ode.workspace.motions.pieces.clone(), causes })
     }
 

@@ -310,6 +310,9 @@ impl<'a> PhaseSteps<'a> {
 
     /// Ends the steps; updates `at` and `run`.
     pub fn end(mut self, at: &mut Progress, run: &mut Run) {
+        // a switch may have ended the phase
+        let held = self.stepper.held(run.implicit.len(), true);
+        run.held.extend(held.filter(|held| held.step > 0 && !held.causes.is_empty()));
         run.statistics.add(self.stepper.statistics(), self.stepper.factorisations());
         run.choice = self.stepper.choice();
         at.last = Some(self.stepper.continued());
@@ -379,7 +382,7 @@ fn observe(
     let steps = recorder.dense.as_ref().map_or(0, |dense| dense.t.len() - 1);
     if steps > 0 {
         run.implicit.resize(steps, stepper.was_implicit());
-        run.held.extend(stepper.held(steps - 1).filter(|held| held.is_new(run.held.last())));
+        run.held.extend(stepper.held(steps - 1, false).filter(|held| held.is_new(run.held.last())));
     }
     let step = stepper.last_step().expect("a step was taken");
     let listed = |index: usize| events.as_ref().is_some_and(|events| events.lists(index));

@@ -86,7 +86,7 @@ pub(super) struct Switching {
     history: Vec<History>,
     due: Option<Due>,
     /// The switches that have changed since the last accepted step.
-    pub causes: Vec<usize>,
+    causes: Vec<usize>,
     /// Evaluates the functions of switches.
     workspace: Option<Box<Workspace>>,
     steps: StepChoice,
@@ -99,7 +99,8 @@ pub(super) struct Switching {
 }
 
 impl Switching {
-    /// The switches of a run that begins with `y` at `t`. None if the model has no switches.
+    /// The switches of a run that begins with `y` at `t`. None if no piece is held: a run may begin at a switch, from which its
+    /// steps hold the piece that the law itself may not select there.
     pub fn new(
         ode: &mut MotionOde<'_>,
         (schedule, steps): (Schedule, StepChoice),
@@ -111,7 +112,8 @@ impl Switching {
         let n = model.switches.len();
         let on_state = |k: &usize| model.switches[*k].state && !model.switches[*k].smooth;
         let on_state: Vec<usize> = (0..n).filter(on_state).list();
-        if schedule.times.is_empty() && on_state.is_empty() {
+        let holds = !on_state.is_empty() || schedule.start.iter().any(|piece| !piece.is_nan());
+        if !holds && schedule.times.is_empty() {
             return None;
         }
         let reactive = on_state.iter().any(|k| match model.switches[*k].owner {
@@ -223,16 +225,30 @@ impl Switching {
         t: f64,
         y: &[f64],
     ) -> Result<(), Cause<Breakdown>> {
-        let mut changes = Vec::new();
+        let changes = self.due_at(t);
         self.graded.retain(|end| self.sign * (end - t) > 0.0);
-        if let Some(due) = self.due.take_if(|due| due.t == t) {
-            changes = due.changes;
-        }
-        if self.schedule.times.get(self.next).is_some_and(|(at, _)| *at == t) {
-            changes.extend(self.schedule.times[self.next].1.iter().copied());
-            self.next += 1;
-        }
+        self.due.take_if(|due| due.t == t);
+        self.next += usize::from(self.planned_at(t).is_some());
         self.change(ode, t, y, &changes)
+    }
+
+    fn planned_at(&self, t: f64) -> Option<&[(usize, f64)]> {
+        let planned = self.schedule.times.get(self.next).filter(|(at, _)| *at == t);
+        planned.map(|(_, changes)| &changes[..])
+    }
+
+    /// The switches that change at `t`, with their new pieces.
+    #[inline(never)]
+    fn due_at(&self, t: f64) -> Vec<(usize, f64)> {
+        let due = self.due.iter().filter(|due| due.t == t).flat_map(|due| &due.changes);
+        due.chain(self.planned_at(t).into_iter().flatten()).copied().list()
+    }
+
+    /// Takes the switches that have changed since the last accepted step; where a phase ends at `t`, also those that change there.
+    pub fn take_causes(&mut self, t: f64, ends: bool) -> Vec<usize> {
+        let due = if ends { self.due_at(t) } else { Vec::new() };
+        self.causes.extend(due.iter().map(|(switch, _)| switch));
+        std::mem::take(&mut self.causes)
     }
 
     fn change(

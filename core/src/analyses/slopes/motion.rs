@@ -282,7 +282,7 @@ impl<'a> MotionSlopes<'a> {
         self.ode.shift((&rates, &self.ode.late), -1.0, &mut self.y);
         self.ode.shift((&rates, late), 1.0, &mut self.y);
         self.ode.late = late.to_vec();
-        if self.next_pieces() == Some(self.step) {
+        while self.next_pieces() == Some(self.step) {
             self.held += 1;
         }
         match self.ends_phase(self.step) {

@@ -205,20 +205,21 @@ impl<'a> Reader<'a> {
         let mut before = self.whole_row(t, states, &triggers)?;
         let StateSlopes::Dynamics(motion) = &self.course else { return Ok(()) };
         let (own, since, mut times) = (self.measures.len(), t - begun, Vec::new());
-        for (k, trigger) in triggers.iter().enumerate() {
+        let others = self.corners.last().filter(|_| since <= NEAR * motion.duration());
+        let is_shared = others.is_some() || triggers.iter().any(Trigger::is_switch);
+        let jumps = |k: usize| before.jumps(own + k, motion.sizes(), NEAR * motion.duration());
+        let jumped = |(k, of): &(usize, &Trigger)| is_shared && !of.is_switch() && jumps(*k);
+        for (k, trigger) in triggers.iter().enumerate().filter(|of| !jumped(of)) {
             let found = before.late(&trigger.name, own + k, (first[own + k][0], since))?;
             times.extend(found.map(|late| (&trigger.name[..], late)));
         }
         let names = triggers.iter().map(|trigger| trigger.name.clone()).list();
-        let late = match times.is_empty() {
-            true => vec![0.0; motion.sizes().len()],
-            false => {
-                let others = self.corners.last().filter(|_| since <= NEAR * motion.duration());
-                let others =
-                    others.filter(|last| last.names.iter().all(|name| !names.contains(name)));
-                times.extend(others.map(|last| (last.name(), last.late.clone())));
-                agreed(t, &times, &motion.sizes()[..motion.count()])?
-            }
+        let others = others.filter(|last| last.names.iter().all(|name| !names.contains(name)));
+        times.extend(others.map(|last| (last.name(), last.late.clone())));
+        let late = match triggers.iter().enumerate().find(jumped) {
+            Some((_, of)) if times.is_empty() => return Err(touches(&of.name, t)),
+            None if times.is_empty() => vec![0.0; motion.sizes().len()],
+            _ => agreed(t, &times, &motion.sizes()[..motion.count()])?,
         };
         let StateSlopes::Dynamics(motion) = &mut self.course else { return Ok(()) };
         motion.turn(&late)?;
@@ -342,6 +343,15 @@ impl<'a> Reader<'a> {
 }
 
 impl SlopeRow {
+    /// Whether function `k` is not zero where it changes its sign, because a force or speed jumps there: another change at
+    /// this time determines it.
+    fn jumps(&self, k: usize, sizes: &[f64], near: f64) -> bool {
+        let [value, rate] = self.values[k];
+        let effects = self.slopes[k].iter().zip(sizes).take(self.variables[1]);
+        let most = effects.fold(0.0_f64, |most, (slope, size)| most.max((slope * size).abs()));
+        value.abs() > (GRAZES * most).max((rate * near).abs())
+    }
+
     /// The derivatives of the time at which function `k`, called `name`, becomes zero. `before` is its value at the last
     /// change, a time `since` ago. None if it is zero all the time, whatever the variables are.
     ///

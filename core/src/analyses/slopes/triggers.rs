@@ -80,6 +80,11 @@ impl Trigger {
         held.causes.iter().map(of).list()
     }
 
+    /// Whether a switch changes.
+    pub fn is_switch(&self) -> bool {
+        matches!(self.function, Function::Switch(_))
+    }
+
     /// Whether the function needs accelerations or multipliers.
     pub fn needs_solution(&self, model: &Model) -> bool {
         match &self.function {
