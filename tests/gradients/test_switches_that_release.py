@@ -1,6 +1,7 @@
 """Slopes where a force jumps at a switch of a law and ends a rest at the time of the switch."""
 
 import kempe as kp
+import numpy as np
 import pytest
 from sizes import some
 
@@ -54,3 +55,29 @@ def test_a_rest_that_a_switch_ends(
     exact["pilot.vx"] = -by_late * late**2 / way if condition == "state" else 0.0
     for name, slope in exact.items():
         assert g["block.x.final", name] == pytest.approx(slope, rel=1e-9, abs=0.0), name
+
+
+@pytest.mark.parametrize(("mass", "size"), [(1.0, 1.0), (1e3, 1e-3), (1e-3, 1e3)])
+def test_integrals_of_forces_by_a_rate_that_ends_a_rest_are_left_out(
+    mass: float, size: float
+) -> None:
+    """A clutch of capacity c stops a wheel that begins with the rate w: ∫ T dt = -J w."""
+    inertia = mass * size**2
+    m = kp.Model("wheel")
+    m.ground.points(O=(0, 0))
+    m.body("w", mass=mass, inertia=inertia, points={"O": (0, 0)})
+    m.revolute("pin", "ground.O", "w.O")
+    m.clutch("c", "ground", "w", capacity=inertia)
+    numbers = ["c.torque.integral", "w.alpha.mean", "w.angle.final", "w.omega.integral"]
+    run = kp.Dynamics(t_end=1, output_step=0.1, name="stop")
+    at_rest = kp.Case(m, {"set": {"w.angle": 0, "w.omega": 0}}, [run])
+    g = kp.gradient(at_rest, numbers, ["w.omega"])
+    assert set(g.remarks) == {(name, "w.omega") for name in numbers[:2]}
+    assert "ends a rest at the start" in g.remarks["w.alpha.mean", "w.omega"]
+    assert np.isnan(g["c.torque.integral", "w.omega"])
+    assert g.jacobian[2:, 0] == pytest.approx([0, 0], abs=1e-12)
+    rate = 0.5
+    moves = kp.Case(m, {"set": {"w.angle": 0, "w.omega": rate}}, [run])
+    g = kp.gradient(moves, numbers, ["w.omega"])
+    assert not g.remarks
+    assert g.jacobian[:, 0] == pytest.approx([-inertia, -1, rate, rate], rel=1e-9)

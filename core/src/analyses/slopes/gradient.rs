@@ -54,6 +54,9 @@ const STEEP: f64 = 1e-6;
 pub(super) const COUNTS: &str = "it counts, or says yes or no, and does not change gradually";
 /// Why a quantity of a whole run has no derivative.
 pub(super) const OF_RUN: &str = "the works of drivers and forces are known along simulations only";
+/// Why integrals of forces and accelerations have no derivative by a variable that ends a rest.
+const CAUGHT: &str =
+    "a change of it ends a rest at the start, and the forces that stop the motion again are not in the derivative";
 /// Why a balance has no derivative.
 pub(super) const OF_BALANCE: &str =
     "a balance is an error of the integration, which has no derivative";
@@ -121,6 +124,8 @@ impl<'a> ReadyVariant<'a> {
         let series: Vec<Option<Series<'_>>> = series.collect::<Result<_, _>>()?;
         let of_run = measures.iter().map(Measure::is_of_run).list();
         let statistics: Vec<(usize, Statistic)> = self.sweep.statistics().list();
+        let of_forces = |k: usize| measures[k].needs_solution(whole.model());
+        let sums = statistics.iter().map(|(k, one)| one.is_integral() && of_forces(*k)).list();
         let of = |(k, statistic): &(usize, Statistic)| match &series[*k] {
             Some(series) if !of_run[*k] => series.statistic(*statistic),
             _ => Ok(f64::NAN),
@@ -150,7 +155,8 @@ impl<'a> ReadyVariant<'a> {
         };
         let found = statistics.iter().enumerate().map(slopes).zip(&values);
         let found = found.map(|(found, value)| by_variable(*value, found, self.count())).list();
-        let mut found = Gradient::of(values, found);
+        let caught = rows.as_ref().map_or(&[][..], |rows| &rows.caught);
+        let mut found = Gradient::of(values, without(found, (&sums, caught)));
         let doubt = |plan: &SlopePlan| {
             let last = plan.times(times).into_iter().reduce(f64::max)?;
             rows.as_ref().ok()?.doubt(last)
@@ -242,6 +248,15 @@ fn is_cusp(outputs: &[f64], value: f64, slopes: &[f64], variant: &ReadyVariant) 
     let sizes = variant.variables().map(|(_, x)| x.abs());
     let steep = slopes.iter().zip(sizes).any(|(slope, size)| slope.abs() * size > STEEP * most);
     steep && value <= ROUNDED * most && outputs.iter().all(|x| *x >= 0.0)
+}
+
+/// The derivatives of numbers without those of `sums` by the variables `caught`.
+fn without(mut found: NumberSlopes, (sums, caught): (&[bool], &[bool])) -> NumberSlopes {
+    for (slopes, _) in found.iter_mut().zip(sums).filter(|(_, sum)| **sum) {
+        let caught = slopes.iter_mut().zip(caught).filter(|(_, caught)| **caught);
+        caught.for_each(|(slope, _)| *slope = Err(CAUGHT.to_string()));
+    }
+    found
 }
 
 impl Gradient {

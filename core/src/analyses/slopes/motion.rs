@@ -49,7 +49,7 @@ pub(super) struct AskedRun<'a> {
 /// A run whose derivatives are computed at ascending times.
 pub(super) struct MotionSlopes<'a> {
     asked: AskedRun<'a>,
-    ode: SlopeOde,
+    pub ode: SlopeOde,
     /// The ends of the steps, and the states at their starts.
     steps: &'a PiecewiseInterpolant,
     /// The state at the end of the run.
@@ -322,8 +322,7 @@ impl<'a> MotionSlopes<'a> {
             take(known, asked.count, &mut self.y);
         }
         self.hold_pieces();
-        self.ode.anchor(t, &self.y);
-        self.ode.project(t, &mut self.y).map_err(failed)
+        self.ode.begin(t, &mut self.y).map_err(failed)
     }
 
     fn hold_pieces(&mut self) {

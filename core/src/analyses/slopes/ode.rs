@@ -7,7 +7,7 @@ use crate::equations::balance::Balance;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::equations::{forces, Gains, Workspace};
 use crate::integrate::Ode;
-use crate::math::{Listed, Real};
+use crate::math::{Listed, Real, ShortArray};
 use crate::model::{ForceItem, Model};
 use crate::solve::Breakdown;
 use std::sync::Arc;
@@ -35,9 +35,14 @@ pub(super) struct SlopeOde {
     /// The derivatives of the time. After a change of the motion it is that of the change plus a given duration: at a
     /// fixed time, derivatives would contain the rates of motions that begin there and decay fast.
     pub late: Vec<f64>,
+    /// The variables whose change would end a rest at the start of a phase, as a start rate of a brake at rest does.
+    pub caught: Vec<bool>,
     /// The state with derivatives by the variables of one block.
     state: Vec<Slope>,
 }
+
+/// The part of the largest derivative of rates by which one of them changes where a rest begins, above rounding errors.
+const CAUGHT: f64 = 1e-9;
 
 impl SlopeOde {
     /// The equations of a model by variables of these magnitudes.
@@ -48,7 +53,8 @@ impl SlopeOde {
         let columns =
             SlopeColumns::new(sizes, [layout.n_q, layout.n_q, layout.n_z, layout.n_works]);
         let (motion, alone, late) = (None, false, vec![0.0; columns.count() - 1]);
-        Self { model, workspace, blocks, anchors, n_y, columns, motion, alone, late, state }
+        let caught = Vec::new();
+        Self { model, workspace, blocks, anchors, n_y, columns, motion, alone, late, caught, state }
     }
 
     /// A time whose derivatives by the variables of block `b` are in `late`.
@@ -58,8 +64,22 @@ impl SlopeOde {
         at
     }
 
+    /// Begins a phase at a state: friction that sticks holds where it is, and the derivatives meet the constraints.
+    pub fn begin(&mut self, t: f64, y: &mut [f64]) -> Result<(), Breakdown> {
+        let (n, before) = (self.model.layout.n_q, y.to_vec());
+        self.anchor(t, y);
+        self.project(t, y)?;
+        let is_caught = |k: usize| {
+            let [a, b] = [&before[..], &*y].each(|y| &y[self.n_y * k + n..][..n]);
+            let most = a.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            a.iter().zip(b).any(|(a, b)| (a - b).abs() > CAUGHT * most)
+        };
+        self.caught = (1..=ABREAST * self.blocks.len()).map(is_caught).list();
+        Ok(())
+    }
+
     /// Friction that sticks holds where it is in a state.
-    pub fn anchor(&mut self, t: f64, y: &[f64]) {
+    fn anchor(&mut self, t: f64, y: &[f64]) {
         let sticks = |item: &&ForceItem<f64>| {
             matches!(item.element.behaviour(), Some(Behaviour::Sticks))
                 && matches!(item.mode, Mode::Holds(_))

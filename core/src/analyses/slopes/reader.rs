@@ -77,6 +77,12 @@ pub(super) struct SlopeRow {
 }
 
 impl<'a> Reader<'a> {
+    /// The variables whose change would end a rest at the start, before any state is read.
+    pub fn caught(&self) -> Vec<bool> {
+        let StateSlopes::Dynamics(motion) = &self.course else { return Vec::new() };
+        motion.ode.caught.clone()
+    }
+
     /// `bounds` are the ends of the steps of the run.
     pub fn new(
         model: &Arc<Model>,

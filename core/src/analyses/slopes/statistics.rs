@@ -214,6 +214,8 @@ pub(super) struct SlopeRows {
     pub(super) end: Vec<f64>,
     /// The changes of the motion.
     pub(super) corners: Vec<Corner>,
+    /// The variables whose change would end a rest at the start.
+    pub(super) caught: Vec<bool>,
     /// Why there are no derivatives after the rows.
     failed: String,
 }
@@ -257,7 +259,7 @@ impl SlopeRows {
         mut t: Vec<f64>,
         variables: usize,
     ) -> Result<Self, String> {
-        let end_of_run = t.last().copied();
+        let (end_of_run, caught) = (t.last().copied(), reader.caught());
         t.order_by(f64::total_cmp);
         t.dedup();
         let last = t.iter().position(|t| Some(*t) == end_of_run).unwrap_or(0);
@@ -282,7 +284,7 @@ impl SlopeRows {
         let span = (0..reader.measures.len())
             .map(|k| rows.iter().fold(0.0_f64, |most, row| most.max(row.values[k][0].abs())));
         let (span, end) = (span.list(), vec![0.0; variables]);
-        Ok(Self { rows, last, variables, span, end, corners, failed })
+        Ok(Self { rows, last, variables, span, end, corners, caught, failed })
     }
 
     /// The rows of a run that ends where measure `k` becomes zero.
