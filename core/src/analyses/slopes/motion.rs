@@ -322,7 +322,7 @@ impl<'a> MotionSlopes<'a> {
             take(known, asked.count, &mut self.y);
         }
         self.hold_pieces();
-        self.ode.begin(t, &mut self.y).map_err(failed)
+        self.ode.begin(t, &mut self.y, &self.scales).map_err(failed)
     }
 
     fn hold_pieces(&mut self) {

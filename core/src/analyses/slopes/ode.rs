@@ -41,7 +41,7 @@ pub(super) struct SlopeOde {
     state: Vec<Slope>,
 }
 
-/// The part of the largest derivative of rates by which one of them changes where a rest begins, above rounding errors.
+/// The part of the largest derivative of rates, or of their scale, by which one of them changes where a rest begins.
 const CAUGHT: f64 = 1e-9;
 
 impl SlopeOde {
@@ -65,14 +65,15 @@ impl SlopeOde {
     }
 
     /// Begins a phase at a state: friction that sticks holds where it is, and the derivatives meet the constraints.
-    pub fn begin(&mut self, t: f64, y: &mut [f64]) -> Result<(), Breakdown> {
+    pub fn begin(&mut self, t: f64, y: &mut [f64], scales: &[f64]) -> Result<(), Breakdown> {
         let (n, before) = (self.model.layout.n_q, y.to_vec());
         self.anchor(t, y);
         self.project(t, y)?;
         let is_caught = |k: usize| {
-            let [a, b] = [&before[..], &*y].each(|y| &y[self.n_y * k + n..][..n]);
+            let [a, b, scales] = [&before[..], &*y, scales].each(|y| &y[self.n_y * k + n..][..n]);
             let most = a.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            a.iter().zip(b).any(|(a, b)| (a - b).abs() > CAUGHT * most)
+            let jumps = |k: usize| (a[k] - b[k]).abs() > CAUGHT * most.max(scales[k]);
+            (0..n).any(jumps)
         };
         self.caught = (1..=ABREAST * self.blocks.len()).map(is_caught).list();
         Ok(())
