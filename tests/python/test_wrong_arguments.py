@@ -115,6 +115,7 @@ def test_an_unknown_name_of_a_mapping_is_named(read: Any, what: str) -> None:
         kp.synthesis.cognates,
         kp.Exercise,
         lambda of: kp.tolerances(of, {}, "x"),
+        lambda of: kp.allocate(of, "x", 1.0, {}),
         lambda of: kp.animate(of, "film.html"),
         lambda of: kp.write_dxf(of, "links.dxf"),
     ],

@@ -119,7 +119,7 @@ def tolerances(
         ModelError: a name or number is invalid, a value at the start is not a number, or the case
             itself or a variant for a slope fails; the message has its reason.
     """
-    given = _given(deviations, "deviations", "{'L2': 0.05}")
+    given = _given(case, deviations, "deviations", "{'L2': 0.05}")
     middle = present(case, given)  # the sweep refuses unknown names
     spread = {name: {"normal": [middle[name], x]} for name, x in given.items()}
     read = limits_of(case, subject_to, analysis)
@@ -144,12 +144,13 @@ def tolerances(
     return _told(sample, (nominal, slopes, widths), (corners, held, indices))
 
 
-def _given(values: Mapping[str, float], name: str, form: str) -> dict[str, float | str]:
-    """Numbers by the name of a variable, at least one.
+def _given(case: Case, values: Mapping[str, float], name: str, form: str) -> dict[str, float | str]:
+    """Numbers by the name of a variable of a case, at least one.
 
     Raises:
-        ModelError: there is none, or one is not a number.
+        ModelError: there is none, one is not a number, or the case is none.
     """
+    present(case, ())
     if not mapping(values, name, form):
         refuse(name, f"there are none; give one: {form}")
     return numbers(values, name)
@@ -304,7 +305,7 @@ def allocate(
     Raises:
         ModelError: an argument is invalid, or the value of the case is the limit already.
     """
-    given = _given(costs, "costs", "{'L2': 1}")
+    given = _given(case, costs, "costs", "{'L2': 1}")
     try:
         limit = float(limit)
     except (TypeError, ValueError):
