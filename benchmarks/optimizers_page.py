@@ -13,8 +13,8 @@ The same two searches by kempe, by SciPy on formulas written by hand, by pylinka
 one after the other in one process: `python benchmarks/optimizers.py`, medians of 3. Both have a
 known optimum with a residual of 0. Starts and bounds are the same for all tools. A *run* is one
 value of the objective; for kempe, one with all its slopes. The *error* is that of the worst
-value, relative. Times include the building of models. The tools took turns on a machine that also
-did other work, so that only the ratios count.
+value, relative. Times include the building of models. The tools took turns on a quiet machine
+with two processors.
 """
 TITLES = {
     "path": """## A path of twelve points
