@@ -144,7 +144,7 @@ fn failed(py: Python<'_>, outcome: Outcome) -> PyErr {
     let message = match outcome {
         Outcome::Failed(reason) => reason,
         _ => "derivatives are not available yet where joints are redundant, where a driver holds friction \
-              at rest, or near singular positions"
+              at rest, where contacts or friction at rest share a load, or near singular positions"
             .to_string(),
     };
     Failure::new(Kind::Integration, message).raise(py)

@@ -34,7 +34,12 @@ pub enum Mode {
 impl Mode {
     /// Whether friction sticks, or a contact rests.
     pub fn holds(self) -> bool {
-        matches!(self, Self::Holds(_) | Self::Idle | Self::Carries(_) | Self::Follows { .. })
+        matches!(self, Self::Holds(_)) || self.depends()
+    }
+
+    /// Whether friction sticks, or a contact rests, without an equation of its own.
+    pub fn depends(self) -> bool {
+        matches!(self, Self::Idle | Self::Carries(_) | Self::Follows { .. })
     }
 }
 

@@ -7,11 +7,8 @@ use super::run_results::Run;
 use super::setting::Setting;
 use crate::elements::Mode;
 use crate::math::Listed;
-use crate::model::Model;
+use crate::model::{listed, Model};
 use serde::{Deserialize, Serialize};
-
-/// The most names in a note.
-const FEW: usize = 3;
 
 /// The contacts at which a paradox ended a phase, and what was reported.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -79,17 +76,13 @@ impl Paradoxes {
             ));
         }
         let asked = !self.told[3];
-        let mut names =
-            if asked { modes::shared_at(model, &settled.modes, place) } else { Vec::new() };
+        let names = if asked { modes::shared_at(model, &settled.modes, place) } else { Vec::new() };
         if !names.is_empty() {
             self.told[3] = true;
-            let more = names.len().saturating_sub(FEW);
-            names.truncate(FEW);
-            let names = names.join(", ");
-            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+            let names = listed(&names.iter().map(|name| &name[..]).list());
             run.notes.push(format!(
-                "from t = {t:.6} s on, the forces of {names}{more} are not unique: contacts and friction at rest share the \
-                 load in one of several ways, each within its limits"
+                "from t = {t:.6} s on, the forces of {names} are not unique: contacts and friction at rest share the load \
+                 in one of several ways, each within its limits"
             ));
         }
         match settled.uniqueness {

@@ -3,10 +3,9 @@
 use crate::analyses::dynamics::{Accelerations, Prepared, Run, States};
 use crate::analyses::measures::Measure;
 use crate::analyses::statistics::row_norms;
-use crate::elements::Mode;
 use crate::integrate::Flow;
 use crate::math::{Listed, ShortArray};
-use crate::model::{ForceMode, Model};
+use crate::model::Model;
 use std::cell::OnceCell;
 use std::sync::Arc;
 
@@ -67,12 +66,13 @@ impl<'a> Readings<'a> {
         rests: bool,
         grid: Option<(f64, f64)>,
     ) -> Result<Self, Missing> {
-        let shares = |of: &ForceMode| of.mode.holds() && !matches!(of.mode, Mode::Holds(_));
         let mut phases = Vec::new();
         for k in 0..run.phases.len() {
             let prepared = match run.settings.get(k).filter(|setting| !setting.is_plain()) {
                 None => Arc::clone(whole),
-                Some(setting) if setting.modes.iter().any(shares) => return Err(Missing::Single),
+                Some(setting) if setting.modes.iter().any(|of| of.mode.depends()) => {
+                    return Err(Missing::Single)
+                }
                 Some(setting) => {
                     let own = setting.model(whole.model()).map_err(|_| Missing::Single)?;
                     Arc::new(Prepared::new(Arc::new(own)))

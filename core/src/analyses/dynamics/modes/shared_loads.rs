@@ -22,14 +22,13 @@ pub fn shared_loads(
 /// The same at a place. Equations of constraints and of forces at rest that depend on each other have forces that are not
 /// unique. Friction that drivers hold is left out, see [`friction_range`](crate::analyses::friction_range()).
 pub fn shared_at(open: &Model, modes: &[ForceMode], place: &StateAt<'_>) -> Vec<String> {
-    let shares = |of: &ForceMode| of.mode.holds() && !matches!(of.mode, Mode::Holds(_));
-    if !modes.iter().any(shares) {
+    if !modes.iter().any(|of| of.mode.depends()) {
         return Vec::new();
     }
     let idle = without_force(open, modes, place);
     let rests = |of: &&ForceMode| of.mode.holds() || idle.contains(&of.force);
     // both limits of a stop have the same derivatives
-    let side = |mode| if matches!(mode, Mode::Holds(_)) { mode } else { Mode::Holds(1.0) };
+    let side = |mode: Mode| if matches!(mode, Mode::Holds(_)) { mode } else { Mode::Holds(1.0) };
     let held = modes.iter().filter(rests).map(|of| ForceMode { mode: side(of.mode), ..*of }).list();
     let phase = place.phase(open, &held);
     let first = phase.constraints.len() - held.len();
