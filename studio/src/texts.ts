@@ -1,7 +1,8 @@
-// All English texts of the studio and its worker, with designTexts.ts, drawingTexts.ts and playerTexts.ts. Names of types come from the catalogue.
+// All English texts of the studio and its worker, with designTexts.ts, drawingTexts.ts, fileTexts.ts and playerTexts.ts. Names of types come from the catalogue.
 import { coreTexts } from "./coreTexts";
 import { design, exercise, improve, slopes } from "./designTexts";
 import { atPlace, edit, labels, machines, place, stems } from "./drawingTexts";
+import { files } from "./fileTexts";
 import { ARROWS_ON, forces, ON_ALL } from "./playerTexts";
 
 export * from "./playerTexts";
@@ -32,20 +33,11 @@ export const texts = {
     design: "Place poses, and choose a linkage that takes them (5)",
   },
   playback: { play: "Play", pause: "Pause", speed: "Speed", time: "Time" },
-  files: {
-    csv: "CSV",
-    npz: "NPZ",
-    png: "PNG",
-    svg: "SVG",
-    gif: "GIF",
-    saved: (name: string) => `Saved in ${name}.`,
-    copied: (name: string) =>
-      `This tab is a copy of another open tab. Changes here do not change the other one; the file of this one is ${name}.`,
-  },
+  files,
   untitled: "Untitled mechanism",
   menu: { new: "New", open: "Open", save: "Save", gallery: "Gallery", share: "Share", undo: "Undo", redo: "Redo" },
   menuHints: {
-    open: "Open a case file (ctrl O)",
+    open: "Open a case file, or one of another tool: asmt, linkage2, dxf, adm, pmks (ctrl O)",
     save: "Save the case as TOML (ctrl S; in another file: ctrl shift S)",
     undo: "Undo (ctrl Z)",
     redo: "Redo (ctrl shift Z)",

@@ -80,7 +80,7 @@ def test_all_that_the_build_reads_is_an_input() -> None:
     crates = re.findall(r'path = "../../(\w+)"', manifest)
     assert {"examples", "target"} < read
     assert read - {"target"} <= set(sources.INPUTS)  # the compiled core
-    assert crates == ["core", "drawing", "synthesis"]
+    assert crates == ["core", "drawing", "exchange", "synthesis"]
     assert {f"{one}/{part}" for one in crates for part in CRATE} <= set(sources.INPUTS)
     inside = {name for name in sources.INPUTS if name.startswith("studio/")}
     parts = {f"studio/{path.name}" for path in (ROOT / "studio").glob("[!.]*")}

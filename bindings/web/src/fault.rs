@@ -31,6 +31,12 @@ impl Fault {
         Self { message: first, hint: None, problems: found.iter().map(problem).collect() }
     }
 
+    /// The fault for the faults of a text.
+    pub fn of_diagnostics(found: &[Diagnostic]) -> Self {
+        let first = found.first().map_or_else(String::new, ToString::to_string);
+        Self { message: first, hint: None, problems: found.iter().map(diagnostic).collect() }
+    }
+
     /// The fault for one problem of a request, with its remedy.
     pub fn of_problem(found: Problem) -> Self {
         let hint = found.hint.unwrap_or_default();

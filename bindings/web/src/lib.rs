@@ -13,6 +13,7 @@ mod editing;
 mod exercise;
 mod fault;
 mod findings;
+mod foreign;
 mod instant;
 mod live;
 mod loaded;

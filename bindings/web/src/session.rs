@@ -8,6 +8,7 @@ use crate::drawn::{display, scene};
 use crate::editing::edit;
 use crate::exercise::Exercise;
 use crate::fault::Fault;
+use crate::foreign;
 use crate::live::Live;
 use crate::loaded::{load, without_drivers, Loaded};
 use crate::modes::configurations;
@@ -60,6 +61,7 @@ impl Session {
     fn answer(&mut self, fields: &Fields<'_>) -> Result<Value, Fault> {
         match fields.text("do")? {
             "catalogue" => Ok(catalogue()),
+            "read" => foreign::read(fields.text("text")?, fields.text("name")?),
             "load" => Ok(self.load(fields.text("text")?)),
             "edit" => edit(&self.text, fields.need("changes")?),
             "save" => self.save(fields),

@@ -23,6 +23,8 @@ INPUTS = (
     "core/src",
     "drawing/Cargo.toml",
     "drawing/src",
+    "exchange/Cargo.toml",
+    "exchange/src",
     "synthesis/Cargo.toml",
     "synthesis/src",
     "examples",

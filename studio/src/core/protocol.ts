@@ -249,6 +249,7 @@ export interface Scene {
 /** The fields and the reply of each request. */
 export interface Requests {
   catalogue: { send: object; reply: unknown };
+  read: { send: { text: string; name: string }; reply: { text: string; lost: number } };
   load: { send: { text: string }; reply: Loaded };
   edit: { send: { changes: Change[] }; reply: { text: string } };
   pose: { send: { q?: number[] }; reply: Pose };

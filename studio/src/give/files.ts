@@ -4,8 +4,8 @@ import { enter } from "../modes/modes";
 import { restart } from "../modes/place";
 import { withAnalysis } from "../modes/starting";
 import { file as caseFile, open } from "../store/document";
-import { MOST_OF_TEXT } from "../store/limits";
-import { report } from "../store/session";
+import { MOST_OF_FOREIGN, MOST_OF_TEXT } from "../store/limits";
+import { report, send } from "../store/session";
 import { announce, text } from "../store/state";
 import { texts } from "../texts";
 import { choose } from "./choose";
@@ -19,6 +19,9 @@ interface Pickers {
 
 const pickers = () => window as Pickers;
 const TYPES = [{ description: "TOML", accept: { "application/toml": [".toml"] } }];
+/** Files that the core makes a case of: JSON of kempe, and those of other tools. */
+const FOREIGN = [".json", ".asmt", ".linkage2", ".dxf", ".adm", ".pmks"];
+const READ = [{ description: "TOML", accept: { "application/toml": [".toml"], "text/plain": FOREIGN } }];
 
 /** The text of a new case. */
 export const EMPTY = `kempe = 1
@@ -37,21 +40,53 @@ export async function begin(): Promise<void> {
 }
 
 export async function openFile(): Promise<void> {
-  if (!pickers().showOpenFilePicker) return choose(".toml,text/plain", take);
+  if (!pickers().showOpenFilePicker) return choose([".toml", "text/plain", ...FOREIGN].join(), take);
   await picked(async () => {
-    const [handle] = await pickers().showOpenFilePicker!({ types: TYPES });
+    const [handle] = await pickers().showOpenFilePicker!({ types: READ });
     if (handle) await take(await handle.getFile(), handle);
   });
 }
 
 /** Open a file that the user has chosen or dropped. */
 export async function take(given: File, handle?: FileSystemFileHandle): Promise<void> {
-  if (given.size > MOST_OF_TEXT) {
-    announce("problem", texts.core.tooLarge);
+  const own = given.name.toLowerCase().endsWith(".toml");
+  if (given.size > (own ? MOST_OF_TEXT : MOST_OF_FOREIGN)) {
+    announce("problem", own ? texts.core.tooLarge : texts.files.tooLarge(given.name));
     return;
   }
-  const of = { name: given.name, ...(handle ? { handle } : {}) };
-  await given.text().then((found) => open(found, of), report);
+  try {
+    if (own) await open(await given.text(), { name: given.name, ...(handle ? { handle } : {}) });
+    else await convert(given);
+  } catch (error) {
+    report(error);
+  }
+}
+
+/** Open the case in a file of another tool. It gets a file of its own, so that saving keeps that one. */
+async function convert(given: File): Promise<void> {
+  const content = decoded(await given.arrayBuffer(), given.name);
+  if (content === null) {
+    announce("problem", texts.files.noText(given.name));
+    return;
+  }
+  const { ok } = await send("read", { text: content, name: given.name });
+  const name = `${given.name.replace(/\.[^.]*$/, "")}.toml`;
+  if (await open(ok.text, { name })) return;
+  if (ok.lost) announce("problem", texts.files.lost(given.name, ok.lost));
+}
+
+/** The text of a file: UTF-8, UTF-16 with its mark, or for older drawings the code page of Windows; otherwise null. */
+function decoded(bytes: ArrayBuffer, name: string): string | null {
+  const head = new Uint8Array(bytes.slice(0, 4096));
+  const mark = ((head[0] ?? 0) << 8) | (head[1] ?? 0);
+  if (mark === 0xfffe || mark === 0xfeff)
+    return new TextDecoder(mark === 0xfffe ? "utf-16le" : "utf-16be").decode(bytes);
+  if (head.includes(0)) return null;
+  try {
+    return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+  } catch {
+    return /\.dxf$/i.test(name) ? new TextDecoder("windows-1252").decode(bytes) : null;
+  }
 }
 
 /** Write the case into its file, or with `elsewhere` into another one; a browser without file access offers a download. */
