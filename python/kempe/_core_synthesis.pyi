@@ -1,5 +1,7 @@
 """Python interface of the compiled core: synthesis of linkages."""
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -69,14 +71,20 @@ def path_four_bars(
     pivots: tuple[_Place | None, ...],
     starts: int | None,
     seed: int,
-) -> tuple[Traces, bool]:
+    progress: Callable[[int, int], None] | None,
+) -> tuple[Traces, bool, BaseException | None]:
     """Four-bars whose coupler point passes points, and whether these are all.
 
+    The last part is the exception that ended the search early, such as KeyboardInterrupt.
     ``cranks`` are angles of the crank or none, ``offset`` says whether their origin is free.
     """
 
-def nine_point_four_bars(places: list[_Place], stored: bytes) -> tuple[Traces, list[int]]:
+def nine_point_four_bars(
+    places: list[_Place], stored: bytes, progress: Callable[[int, int], None] | None
+) -> tuple[Traces, list[int], BaseException | None]:
     """All four-bars whose coupler point passes nine points, from a stored start.
+
+    The last part is the exception that ended the search early.
 
     The numbers are those of the four-bars that start, of different ends, of those that were
     followed again, and of real ends.

@@ -73,9 +73,9 @@ CALLS: dict[str, Callable[[], object]] = {
         np.zeros((0, 8)), [], False, (False, None, None, None, 0), False, False
     ),
     "path_four_bars": lambda: _core.path_four_bars(
-        [(0.0, 0.0), (1.0, 0.0)], [], True, (None, None), 1, 0
+        [(0.0, 0.0), (1.0, 0.0)], [], True, (None, None), 1, 0, None
     ),
-    "nine_point_four_bars": lambda: _core.nine_point_four_bars([], b""),
+    "nine_point_four_bars": lambda: _core.nine_point_four_bars([], b"", None),
     "near_poses": lambda: _core.near_poses([(0.0, 0.0)], [0.0], (None, None), np.zeros((0, 8))),
     "fit_pairs": lambda: _core.fit_pairs([], 1.0, [], [], [], 1),
     "Record.number": lambda: RECORD.number("count"),

@@ -58,7 +58,7 @@ def test_four_bars_through_eight_points_pass_them() -> None:
     random = np.random.default_rng(803)
     bar, crank = drawn(random, 8)
     places, _ = bar.poses(crank)
-    bars = nine.through_eight(places)
+    bars = nine.through_eight(places, None)[0]
     assert bars is not None
     for pins, pivot in ((bars.a, bars.o), (bars.b, bars.d)):
         arms = abs(pins - pivot[:, None])
@@ -100,7 +100,7 @@ def test_a_case_with_a_choice_has_the_candidates_of_the_studio() -> None:
 
 def test_a_wrong_start_is_refused() -> None:
     with pytest.raises(ValueError, match="nine places"):
-        _core.nine_point_four_bars(EXAMPLE, b"")
+        _core.nine_point_four_bars(EXAMPLE, b"", None)
 
 
 def test_the_stored_solutions_are_small() -> None:

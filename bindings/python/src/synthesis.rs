@@ -11,6 +11,7 @@ use kempe_synthesis::{
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::time::{Duration, Instant};
 
 /// Linkage, positions and sum of squares.
 type Found = (Vec<f64>, Vec<[f64; 2]>, f64);
@@ -172,11 +173,38 @@ fn found<T>(of: Result<T, Refused>) -> PyResult<T> {
 /// at the first position, and the errors.
 type Traces = (Py<PyArray1<f64>>, Vec<f64>, Vec<f64>);
 
-/// Four-bars whose coupler point passes points, and whether these are all.
+/// Time between checks for signals and calls of `progress`.
+const GLANCE: Duration = Duration::from_millis(40);
+
+/// Advances a search until `step` returns no more numbers of starts, tried and in all, or until a signal such as that of
+/// Ctrl-C raises an exception. It is returned, because the caller keeps the linkages found so far.
+fn searched(
+    py: Python<'_>,
+    progress: Option<Py<PyAny>>,
+    mut step: impl FnMut() -> PyResult<Option<(usize, usize)>>,
+) -> PyResult<Option<Py<PyAny>>> {
+    let mut told = Instant::now();
+    while let Some(tried) = step()? {
+        if told.elapsed() < GLANCE {
+            continue;
+        }
+        told = Instant::now();
+        let outcome = py.check_signals().and_then(|()| {
+            progress.as_ref().map_or(Ok(()), |call| call.call1(py, tried).map(|_| ()))
+        });
+        if let Err(error) = outcome {
+            return Ok(Some(error.into_value(py).into_any()));
+        }
+    }
+    Ok(None)
+}
+
+/// Four-bars whose coupler point passes points, whether these are all, and the exception that ended the search.
 ///
 /// `cranks` are angles of the crank or none, `offset` says whether their origin is free.
 #[pyfunction]
-#[pyo3(signature = (places, cranks, offset, pivots, starts, seed))]
+#[pyo3(signature = (places, cranks, offset, pivots, starts, seed, progress))]
+#[allow(clippy::too_many_arguments)] // those of Python
 pub fn path_four_bars(
     py: Python<'_>,
     places: Vec<[f64; 2]>,
@@ -185,7 +213,8 @@ pub fn path_four_bars(
     pivots: [Option<[f64; 2]>; 2],
     starts: Option<usize>,
     seed: u64,
-) -> PyResult<(Traces, bool)> {
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(Traces, bool, Option<Py<PyAny>>)> {
     guard("path_four_bars", || {
         if !cranks.is_empty() && cranks.len() != places.len() {
             return Err(PyValueError::new_err("a crank angle for each of the places, or none"));
@@ -193,35 +222,39 @@ pub fn path_four_bars(
         let (places, pivots) = (complexes(&places), pivots.map(|at| at.map(complex)));
         let wanted = Wanted { places, cranks, offset, pivots, ..Wanted::default() };
         let mut search = found(PathSearch::new(wanted, starts, seed))?;
-        while !search.ended() {
-            py.check_signals()?;
+        let stopped = searched(py, progress, || {
+            if search.ended() {
+                return Ok(None);
+            }
             found(search.advance(1))?;
-        }
-        let all = search.found();
-        found(if all.is_empty() { Err(search.none()) } else { Ok(()) })?;
-        Ok((traces(py, &all), search.complete()))
+            Ok(Some((search.tried(), search.most())))
+        })?;
+        let (all, whole) = (search.found(), stopped.is_none());
+        found(if whole && all.is_empty() { Err(search.none()) } else { Ok(()) })?;
+        Ok((traces(py, &all), whole && search.complete(), stopped))
     })
 }
 
-/// All four-bars whose coupler point passes nine points, from a stored start. The numbers are those of the four-bars that
-/// start, of different ends, of those that were followed again, and of real ends.
+/// All four-bars whose coupler point passes nine points, from a stored start, and the exception that ended the search. The
+/// numbers are those of the four-bars that start, of different ends, of those that were followed again, and of real ends.
 #[pyfunction]
-#[pyo3(signature = (places, stored))]
+#[pyo3(signature = (places, stored, progress))]
 pub fn nine_point_four_bars(
     py: Python<'_>,
     places: Vec<[f64; 2]>,
     stored: &[u8],
-) -> PyResult<(Traces, [usize; 4])> {
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(Traces, [usize; 4], Option<Py<PyAny>>)> {
     guard("nine_point_four_bars", || {
         let search = NinePoints::new(&complexes(&places), stored);
         let wrong = "nine places, and a start that examples/nine_points.rs makes";
         let mut search = search.ok_or_else(|| PyValueError::new_err(wrong))?;
-        while !search.ended() {
-            py.check_signals()?;
+        let stopped = searched(py, progress, || {
             search.advance(1);
-        }
+            Ok((!search.ended()).then(|| search.tried()))
+        })?;
         let (all, count) = search.found();
-        Ok((traces(py, &all), [count.paths, count.found, count.again, count.real]))
+        Ok((traces(py, &all), [count.paths, count.found, count.again, count.real], stopped))
     })
 }
 

@@ -22,7 +22,7 @@ from kempe.cli.arguments import (
     Units,
     shown_in,
 )
-from kempe.cli.clock import drawing
+from kempe.cli.clock import counting
 from kempe.cli.console import answers
 from kempe.cli.solved import CaseOrSolution, motions, results_folder
 from kempe.errors import ModelError
@@ -122,7 +122,7 @@ def animate(  # noqa: PLR0917 - typer distinguishes options by their annotations
             else:
                 path = _path(file, output, form, name)
                 look |= {"fps": fps, "speed": speed, "begin": first, "end": last}
-                with drawing(path.name) as progress:
+                with counting(path.name) as progress:
                     write(solution, path, progress=progress, **look)
         console.print(Text(str(path)))
 

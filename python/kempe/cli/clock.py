@@ -51,14 +51,14 @@ class Clock:
 
 
 @contextmanager
-def drawing(name: str) -> Iterator[Callable[[int, int], None]]:
-    """Display the number of finished frames of a video while the block runs.
+def counting(name: str) -> Iterator[Callable[[int, int], None]]:
+    """Display the share of a work that is done, as of the frames of a video, while the block runs.
 
     Args:
-        name: name of the video.
+        name: name of the work.
 
     Yields:
-        A function to call with the number of finished frames and the total number.
+        A function to call with the number of finished parts and the total number.
     """
     console = remarks()
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())

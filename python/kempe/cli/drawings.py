@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from kempe.cli.animate import STEM, Form
-from kempe.cli.clock import drawing as progress_of
+from kempe.cli.clock import counting
 from kempe.cli.figures import Drawing, Which
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def write_drawings(solution: Solution, folder: Path, drawing: Drawing) -> list[P
             written.append(folder / name)
     if drawing.video not in (None, Form.html):
         path = folder / f"{STEM}.{drawing.video.value}"
-        with progress_of(path.name) as progress:
+        with counting(path.name) as progress:
             written.append(animate(solution, path, progress=progress))
     return written
 

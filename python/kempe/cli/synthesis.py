@@ -11,7 +11,8 @@ import typer
 from rich.text import Text
 
 from kempe.cli.arguments import AsJson, stem
-from kempe.cli.console import answers, figure, list_files, table
+from kempe.cli.clock import counting
+from kempe.cli.console import answers, figure, list_files, remarks, table
 from kempe.cli.failure import document
 from kempe.errors import ModelError
 
@@ -78,7 +79,8 @@ def synthesis(  # noqa: PLR0917 - typer uses the annotations of options and argu
         folder = files.checked_path(output or Path("out") / stem(source) / "synthesis", "write")
         given: dict[str, Any] = {"transmission_angle": transmission_angle, "family": family}
         given |= {"defects": "tell" if tell else None, "grashof": grashof or None, "seed": seed}
-        found = _found(task, file, {key: of for key, of in given.items() if of is not None})
+        options = {key: of for key, of in given.items() if of is not None}
+        found = _searched(task, file, options, folder)
         if rank is not None:
             found = found.ranked(rank)
         console = answers(silent=as_json)
@@ -91,6 +93,16 @@ def synthesis(  # noqa: PLR0917 - typer uses the annotations of options and argu
             written += save(synthesis_pages(found), folder / "figures")
             list_files(console, written)
         content.update({**_summary(found), "files": [str(path) for path in written]})
+
+
+def _searched(task: str, file: Path | None, options: dict[str, Any], folder: Path) -> Found:
+    """The linkages, with a display of the progress; those found so far are kept after Ctrl-C."""
+    try:
+        with counting((file or Path(task)).name) as progress:
+            return _found(task, file, {**options, "progress": progress})
+    except KeyboardInterrupt as error:
+        _keep(getattr(error, "result", None), folder)
+        raise
 
 
 def _found(task: str, file: Path | None, options: dict[str, Any]) -> Found:
@@ -120,6 +132,15 @@ def _write(found: Found, folder: Path) -> list[Path]:
     files.write_text(folder / "candidates.csv", found.text())
     found[0].case.save(folder / "best.toml")
     return [folder / "candidates.csv", folder / "best.toml"]
+
+
+def _keep(found: Found | None, folder: Path) -> None:
+    """Write what an interrupted search has found."""
+    if found is None or not len(found):
+        remarks().print(Text("interrupted before anything was found"))
+        return
+    remarks().print(Text(f"interrupted: {len(found)} candidates of a part of the search"))
+    list_files(remarks(), _write(found, folder))
 
 
 def _summary(found: Found) -> dict[str, Any]:

@@ -151,6 +151,12 @@ class Found(Sequence[Candidate]):
         return f"<Found: {told}>"
 
 
+def ended_early(error: BaseException, result: Found | None) -> BaseException:
+    """The exception that ended a search, such as KeyboardInterrupt, with what was found so far."""
+    error.result = result  # type: ignore[attr-defined]
+    return error
+
+
 def _read(candidate: Candidate, column: str) -> float:
     plan = plan_of(candidate.case, {"measures": [column], "analysis": None}, ())
     return plan.read(np.zeros(0))[0][0]

@@ -42,6 +42,7 @@ def function(
     parts: Mapping[str, Any] | None = None,
     samples: int | None = None,
     seed: int = 0,
+    progress: tasks.Progress | None = None,
     **limits: Any,
 ) -> Found:
     """Linkages whose output has given angles at given angles of the crank.
@@ -69,28 +70,36 @@ def function(
         parts: prescribed bodies of a six-bar, as for ``path``.
         samples: of free choices, or starts of a six-bar; None for as many as usual.
         seed: of the samples and starts.
+        progress: called with the number of rounds of starts of a six-bar, and the largest one.
         limits: ``defects``, ``transmission_angle``, ``grashof``, ``within``, ``direction`` and
             ``masses``; ``limits`` describes them.
 
     Raises:
         ModelError: no linkage couples the angles, or an argument is invalid.
+        KeyboardInterrupt: Ctrl-C was pressed; ``result`` has six-bars found so far, or is None.
     """
     bodies = assemble.families(family, ("four_bar", *six_bars.FAMILIES), limits, parts)
-    asked, length = assemble.limits(**limits), value(ground, "ground", "m")
+    asked, length = assemble.limits(**limits), _length(ground)
     for name, given in (("scales", scales), ("offsets", offsets)):
         if given not in ("fixed", "free", None):
             refuse(name, f"{given!r}; must be 'fixed' or 'free'")
-    if not length > 0.0:
-        refuse("ground", f"{ground!r}; must be > 0")
     wanted = tasks.pairs(pairs, "" if scales == "free" else "rad")
     if bodies is not None:
-        six = six_bars.Asked(bodies, asked, pivots, parts, samples, seed)
+        six = six_bars.Asked(bodies, asked, pivots, parts, samples, seed, progress)
         return six_bars.function(six, wanted, (offsets == "fixed", scales != "free"), length)
     tasks.pivots(pivots, "")
     free = (len(wanted) > 3 or scales == "free") if offsets is None else offsets == "free"
     bars, all_ = _four_bars(wanted, (not free, scales != "free"), samples or SAMPLES, seed)
     none = np.zeros(0, dtype=complex)
     return assemble.collected(scaled(bars, length), asked, either=False, complete=all_, task=none)
+
+
+def _length(ground: Number) -> float:
+    """The distance of the ground pivots, m."""
+    length = value(ground, "ground", "m")
+    if not length > 0.0:
+        refuse("ground", f"{ground!r}; must be > 0")
+    return length
 
 
 def _four_bars(

@@ -10,7 +10,7 @@ from kempe.base.arguments import explained
 from kempe.model.given import value
 from kempe.model.values import Number, refuse
 from kempe.synthesis import assemble, nine, tasks
-from kempe.synthesis.found import Found
+from kempe.synthesis.found import Found, ended_early
 from kempe.synthesis.six_bar import search as six_bars
 from kempe.synthesis.tasks import Complexes
 
@@ -26,6 +26,7 @@ def path(
     parts: Mapping[str, Any] | None = None,
     starts: int | None = None,
     seed: int = 0,
+    progress: tasks.Progress | None = None,
     **limits: Any,
 ) -> Found:
     """Linkages whose coupler point passes points, in the given order.
@@ -58,24 +59,16 @@ def path(
         starts: number of starts; None for as many as the task usually needs. With a number, nine
             points are searched from starts, too.
         seed: of samples and starts.
+        progress: called with the number of starts that were tried, and that of all.
         limits: ``defects``, ``transmission_angle``, ``grashof``, ``within``, ``direction`` and
             ``masses``; ``limits`` describes them.
 
     Raises:
         ModelError: no linkage was found, or an argument is invalid.
+        KeyboardInterrupt: Ctrl-C was pressed; ``result`` has what was found so far, or is None.
     """
-    return solved(
-        points,
-        family,
-        angles,
-        offsets=offsets,
-        pivots=pivots,
-        parts=parts,
-        starts=starts,
-        seed=seed,
-        follows=True,
-        **limits,
-    )
+    more = {"offsets": offsets, "pivots": pivots, "parts": parts, "starts": starts, "seed": seed}
+    return solved(points, family, angles, follows=True, progress=progress, **more, **limits)
 
 
 def solved(
@@ -88,6 +81,7 @@ def solved(
     parts: Mapping[str, Any] | None = None,
     starts: int | None = None,
     seed: int = 0,
+    progress: tasks.Progress | None = None,
     follows: bool,
     **limits: Any,
 ) -> Found:
@@ -100,25 +94,30 @@ def solved(
         refuse("starts", f"{starts}; at least one")
     cranks = [] if angles is None else _angles(angles, len(places))
     if bodies is not None:
-        task = six_bars.Asked(bodies, asked, pivots, parts, starts, seed)
+        task = six_bars.Asked(bodies, asked, pivots, parts, starts, seed, progress)
         return six_bars.path(task, places, cranks, fixed=offsets == "fixed")
     fixed = tasks.pivots(pivots, "O D")
     either = angles is None and not fixed
     follows = follows and either and starts is None
-    bars, complete, followed = None, False, None
+    bars, complete, followed, stopped = None, False, None, None
     if follows and len(places) == 9:
-        bars, followed = nine.four_bars(places)
+        bars, followed, stopped = nine.four_bars(places, progress)
         complete = followed.found == followed.paths
-    if bars is None or not len(bars.o):
-        found, every = _core.path_four_bars(
-            tasks.pairs_in(places), cranks, offsets == "free", tasks.both(fixed), starts, seed
+    if bars is None or not (len(bars.o) or stopped):
+        given, free = tasks.pairs_in(places), offsets == "free"
+        found, every, stopped = _core.path_four_bars(
+            given, cranks, free, tasks.both(fixed), starts, seed, progress
         )
         bars, complete = assemble.traced(found, len(places)), complete or every
-    if follows and len(places) == 8 and bars.error.min() > _exact(places):
-        bars = nine.through_eight(places) or bars
-    return assemble.collected(
+    if follows and not stopped and len(places) == 8 and bars.error.min() > _exact(places):
+        better, stopped = nine.through_eight(places, progress)
+        bars = better or bars
+    made = assemble.collected(
         bars, asked, either=either, complete=complete, task=places, followed=followed
     )
+    if stopped is not None:
+        raise ended_early(stopped, made if len(bars.o) else None)
+    return made
 
 
 def _exact(places: Complexes) -> float:

@@ -54,6 +54,7 @@ def from_file(task: str, path: str | Path, **options: Any) -> Found:
         raise FileError(told, name=str(path), hint=hint)
     rows = np.column_stack([found[name] for name in needed]).tolist()
     if task == "motion":
+        options.pop("progress", None)  # it needs no search
         return motion(rows, **options)
     if task == "function":
         return function([tuple(row) for row in rows], **options)
@@ -88,6 +89,7 @@ def from_case(case: Case, **options: Any) -> Found:
     task = str(section.pop("task"))
     given = section.pop(_LISTS[task])
     if task == "motion":
+        section.pop("progress", None)
         return motion(given, **section)
     if task == "function":
         return function([tuple(row) for row in given], **section)

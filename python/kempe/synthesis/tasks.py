@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -15,6 +15,8 @@ from kempe.model.values import Number, refuse
 Complexes: TypeAlias = NDArray[np.complex128]
 #: x and y, m, and the angle of the moving frame, rad; or texts such as "30 deg".
 Pose: TypeAlias = Sequence[Number]
+#: Called with the number of starts that were tried, and that of all.
+Progress: TypeAlias = Callable[[int, int], None]
 
 #: Two places, or angles, that differ by less, relative to the size of the task, are the same.
 SAME = 1e-9

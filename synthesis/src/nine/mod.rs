@@ -99,6 +99,11 @@ impl NinePoints {
         self.again.as_ref().is_some_and(|again| self.tried == PATHS + again.len())
     }
 
+    /// The numbers of four-bars that were followed, and of all that will be as far as it is known.
+    pub fn tried(&self) -> (usize, usize) {
+        (self.tried, PATHS + self.again.as_ref().map_or(0, Vec::len))
+    }
+
     /// Follow some more of the four-bars.
     pub fn advance(&mut self, paths: usize) {
         for _ in 0..paths {

@@ -13,7 +13,7 @@ from kempe.errors import ModelError
 from kempe.model.values import Number, refuse
 from kempe.synthesis import tasks
 from kempe.synthesis.candidate import Candidate
-from kempe.synthesis.found import Found
+from kempe.synthesis.found import Found, ended_early
 from kempe.synthesis.six_bar.candidate import SixBar
 from kempe.synthesis.six_bar.fit import Task, fitted
 from kempe.synthesis.six_bar.judge import judged
@@ -51,6 +51,7 @@ class Asked:
     parts: Mapping[str, Any] | None
     starts: int | None
     seed: int
+    progress: tasks.Progress | None = None
 
     def bounds(
         self, frame: tuple[complex, float], more: Mapping[str, complex], free: str
@@ -156,17 +157,22 @@ def _searched(
 ) -> Found:
     """Candidates of several rounds of starts, until one is without defects."""
     made: list[SixBar] = []
-    for k in range(_ROUNDS):
-        linkage, angles = _improved(task, *started(asked.seed + 1000 * k))
-        # a scale of the arm near zero fits any function
-        used = abs(linkage[:, -1]) >= _LEAST
-        linkage, angles = _closed(task, linkage[used], angles[used])
-        if placed is not None:
-            placed(linkage)
-        made += _candidates(task, linkage, angles, asked.limits, frame)
-        found = _ranked(made, asked.limits, places)
-        if any(not one.defects for one in found):
-            return found
+    try:
+        for k in range(_ROUNDS):
+            if asked.progress is not None:
+                asked.progress(k, _ROUNDS)
+            linkage, angles = _improved(task, *started(asked.seed + 1000 * k))
+            # a scale of the arm near zero fits any function
+            used = abs(linkage[:, -1]) >= _LEAST
+            linkage, angles = _closed(task, linkage[used], angles[used])
+            if placed is not None:
+                placed(linkage)
+            made += _candidates(task, linkage, angles, asked.limits, frame)
+            found = _ranked(made, asked.limits, places)
+            if any(not one.defects for one in found):
+                return found
+    except KeyboardInterrupt as error:
+        raise ended_early(error, _ranked(made, asked.limits, places) if made else None) from None
     if not made:
         hint = "try another seed or more starts, leave parts or pivots free, or change the task"
         raise ModelError(f"no {task.family.name} found that closes at all positions", hint=hint)
