@@ -26,6 +26,8 @@ SAMPLES, _STARTS, _ROUNDS, _STEPS = 400, 300, 3, 150
 _CLOSING = 1e3
 #: A four-bar is exact if its sum of squares is below the square of this.
 _EXACT = 1e-10
+#: The places of a task without a point.
+_NONE = np.zeros(0, dtype=complex)
 #: Least range of an angle with free scales, rad.
 _LEAST = 0.1
 
@@ -90,8 +92,7 @@ def function(
     tasks.pivots(pivots, "")
     free = (len(wanted) > 3 or scales == "free") if offsets is None else offsets == "free"
     bars, all_ = _four_bars(wanted, (not free, scales != "free"), samples or SAMPLES, seed)
-    none = np.zeros(0, dtype=complex)
-    return assemble.collected(scaled(bars, length), asked, either=False, complete=all_, task=none)
+    return assemble.collected(scaled(bars, length), asked, either=False, complete=all_, task=_NONE)
 
 
 def _length(ground: Number) -> float:

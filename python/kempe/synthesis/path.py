@@ -67,7 +67,13 @@ def path(
         ModelError: no linkage was found, or an argument is invalid.
         KeyboardInterrupt: Ctrl-C was pressed; ``result`` has what was found so far, or is None.
     """
-    more = {"offsets": offsets, "pivots": pivots, "parts": parts, "starts": starts, "seed": seed}
+    more: dict[str, Any] = {
+        "offsets": offsets,
+        "pivots": pivots,
+        "parts": parts,
+        "starts": starts,
+        "seed": seed,
+    }
     return solved(points, family, angles, follows=True, progress=progress, **more, **limits)
 
 
