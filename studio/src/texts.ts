@@ -226,6 +226,8 @@ export const texts = {
       `Rates are derivatives by ${name}. Forces, torques and powers are those ${condition}.`,
     notUnique: (names: readonly string[]) =>
       `* Not unique: of the possible reactions of redundant joints, the smallest are shown (minimum norm): ${names.join(", ")}.`,
+    shared: (names: readonly string[]) =>
+      `* Not unique: contacts and friction at rest share the load in more than one way, and one of them is shown: ${names.join(", ")}.`,
     done: (count: number, name: string, end: string) => `${count} states up to ${name} = ${end}`,
     begun: (names: string) => `The motion begins here: the law of ${names} was changed. Undo restores it.`,
     stops: (owner: string, value: string, reason: string) => `${owner} stops at ${value}: ${reason}.`,

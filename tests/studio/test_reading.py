@@ -182,3 +182,50 @@ def test_reactions_that_are_not_unique_have_a_star_and_a_note(one: Studio, tmp_p
     one.mode("read")
     assert one.page.locator("#not-unique").count() == 0
     assert "*" not in "".join(one.page.locator(".legend .name").all_inner_texts())
+
+
+FEET = """kempe = 1
+gravity = [0, -9.81]
+[bodies.ground]
+curves.floor.line = [[9, 0], [-9, 0]]
+[bodies.beam]
+mass = 2
+inertia = 1
+points = { A = [-1, 0], B = [0.5, 0], C = [1, 0] }
+[forces.a]
+type = "contact"
+i = "beam.A"
+curve = "ground.floor"
+restitution = 0
+[forces.b]
+type = "contact"
+i = "beam.B"
+curve = "ground.floor"
+restitution = 0
+[forces.c]
+type = "contact"
+i = "beam.C"
+curve = "ground.floor"
+restitution = 0
+[analyses.rest]
+type = "dynamics"
+t_end = 0.1
+"""
+
+
+def test_loads_that_feet_share_have_a_star_and_a_note(one: Studio, tmp_path: Path) -> None:
+    one.load(FEET)
+    one.mode("read")
+    for name in ("a.fy", "b.fy", "beam.y"):
+        plot_only(one, name)
+    path = tmp_path / "feet.toml"
+    path.write_text(FEET, encoding="utf-8")
+    assert sorted(kp.load(path).run()["rest"].choices) == ["a", "b", "c"]
+    assert one.page.locator("#shared").inner_text().endswith("one of them is shown: a, b, c.")
+    entries = one.page.locator(".legend .name").all_inner_texts()
+    assert [entry for entry in entries if entry.endswith("*")] == ["a.fy *", "b.fy *"]
+    # two feet share the load in one way
+    one.load(FEET[: FEET.index("[forces.c]")] + FEET[FEET.index("[analyses.rest]") :])
+    one.mode("read")
+    assert one.page.locator("#shared").count() == 0
+    assert "*" not in "".join(one.page.locator(".legend .name").all_inner_texts())

@@ -6,7 +6,7 @@ use crate::findings;
 use crate::instant;
 use crate::loaded::Loaded;
 use crate::named;
-use kempe::analyses::dynamics::{Prepared, Run};
+use kempe::analyses::dynamics::{shared_loads, Prepared, Run};
 use kempe::analyses::readings::Readable;
 use kempe::analyses::record::{Observer, Record, RunResult, StartState, Subject, Variable};
 use kempe::analyses::{not_unique, AnyAnalysis};
@@ -126,7 +126,7 @@ impl Ran {
             "over": self.over().map(
                 |of| json!({ "name": of.name, "unit": of.unit, "condition": of.condition() })),
             "error": self.error.as_ref().map(|message| json!({ "message": message })),
-            "not_unique": self.not_unique(run),
+            "not_unique": self.not_unique(run), "shared": self.shared(run),
             "remarks": self.record.remarks.iter().chain(&run.doubts).chain(&run.notes).collect::<Vec<_>>(),
         })
     }
@@ -140,6 +140,26 @@ impl Ran {
         let at = |k: usize| not_unique(model, track.t[k], &track.q[n * k..n * (k + 1)]).all();
         let found: BTreeSet<usize> = some.into_iter().flat_map(at).collect();
         found.into_iter().map(|k| &model.constraints[k].name[..]).collect()
+    }
+
+    /// The names of forces, joints and drivers whose load contacts and friction at rest share in more than one way, at
+    /// the ends of some phases.
+    fn shared(&self, run: &Run) -> BTreeSet<String> {
+        let depends = |phase: &usize| run.settings[*phase].modes.iter().any(|of| of.mode.depends());
+        let all: Vec<usize> = (0..run.settings.len()).filter(depends).collect();
+        let Some(last) = all.len().checked_sub(1) else { return BTreeSet::new() };
+        let some: BTreeSet<usize> = (0..EXAMINED).map(|k| all[k * last / (EXAMINED - 1)]).collect();
+        let at_ends = |phase: usize| {
+            let (setting, states) = (&run.settings[phase], run.states_of(phase));
+            let open = setting.open(&self.model).ok()?;
+            let count = states.t.len();
+            let at = |k: usize| {
+                let rows = [states.q, states.v, states.z].map(|table| nth(table, k, count));
+                shared_loads(&open, &setting.modes, states.t[k], rows)
+            };
+            Some([0, count.checked_sub(1)?].into_iter().flat_map(at).collect::<Vec<_>>())
+        };
+        some.into_iter().filter_map(at_ends).flatten().collect()
     }
 
     /// Times and poses of the moving bodies, row by row.
@@ -191,4 +211,10 @@ impl Ran {
         let (units, numbers) = named::values(&self.model, self.run()?, &found?);
         Ok((units.iter().map(|unit| self.unit(unit)).collect(), numbers))
     }
+}
+
+/// Row `k` of a table with so many rows.
+fn nth(table: &[f64], k: usize, count: usize) -> &[f64] {
+    let width = table.len() / count;
+    &table[k * width..(k + 1) * width]
 }

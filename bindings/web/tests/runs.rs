@@ -236,3 +236,36 @@ fn a_run_over_a_quantity_needs_no_analysis_of_the_case() {
     let message = page.fault(request(json!(["0"])));
     assert!(message.contains("range"), "{message}");
 }
+
+/// A beam of 2 kg on feet with abscissas, m, and its centre at 0.
+fn beam_on_feet(feet: &[f64]) -> String {
+    let names = || (0..feet.len()).map(|k| format!("P{k}"));
+    let points: Vec<String> =
+        names().zip(feet).map(|(name, x)| format!("{name} = [{x}, 0]")).collect();
+    let contacts: String = names()
+        .map(|name| {
+            format!(
+                "[forces.foot_{name}]\ntype = \"contact\"\ni = \"beam.{name}\"\ncurve = \"ground.floor\"\nrestitution = 0\n"
+            )
+        })
+        .collect();
+    format!(
+        "kempe = 1\ngravity = [0, -9.81]\n[bodies.ground]\ncurves.floor.line = [[9, 0], [-9, 0]]\n\
+         [bodies.beam]\nmass = 2\ninertia = 1\npoints = {{ {} }}\n{contacts}\
+         [analyses.rest]\ntype = \"dynamics\"\nt_end = 0.1\n",
+        points.join(", ")
+    )
+}
+
+#[test]
+fn loads_that_feet_share_in_more_than_one_way_are_named() {
+    for (feet, expected) in [
+        (&[-1.0, 1.0][..], json!([])),
+        (&[-1.0, 0.5, 1.0], json!(["foot_P0", "foot_P1", "foot_P2"])),
+    ] {
+        let mut page = Page::of(&beam_on_feet(feet));
+        let ran = page.ask(json!({ "do": "run", "analysis": "rest" }));
+        assert_eq!((&ran["error"], &ran["shared"]), (&Value::Null, &expected), "{ran}");
+        assert_eq!(ran["not_unique"], json!([]));
+    }
+}

@@ -102,6 +102,7 @@ export interface Ran {
   over: (Quantity & { condition: string }) | null;
   /** The joints and drivers whose reactions are not unique. */
   not_unique: string[];
+  shared: string[];
   remarks: string[];
 }
 

@@ -36,6 +36,8 @@ export const remarks = computed(() => (course.value?.ran ?? found.value)?.remark
 export const quantities = signal<Quantity[]>([]);
 /** The joints and drivers whose reactions are not unique. The shown reactions are the smallest ones. */
 export const notUnique = computed(() => course.value?.ran.not_unique ?? []);
+/** Forces and joints whose load contacts and friction at rest share in more than one way. */
+export const sharedLoads = computed(() => course.value?.ran.shared ?? []);
 export const time = signal(0);
 const frames = new Frames();
 export const playing = frames.playing;
@@ -82,7 +84,7 @@ export const read: Handler = {
 
 /** The name of a quantity or element, with a star if its forces are not unique. */
 export function starred(name: string, of: string, unit = "N"): string {
-  const marked = ["N", "N·m"].includes(unit) && notUnique.value.includes(of);
+  const marked = ["N", "N·m"].includes(unit) && [...notUnique.value, ...sharedLoads.value].includes(of);
   return marked ? `${name} *` : name;
 }
 

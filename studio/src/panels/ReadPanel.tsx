@@ -17,6 +17,7 @@ import {
   remarks,
   run,
   running,
+  sharedLoads,
   variable,
 } from "../modes/read";
 import { arrows, KINDS, type Kind, onBody } from "../page/motionOverlay";
@@ -73,6 +74,11 @@ export function ReadPanel() {
             {notUnique.value.length ? (
               <p class="doc" id="not-unique">
                 {words.notUnique(notUnique.value)}
+              </p>
+            ) : null}
+            {sharedLoads.value.length ? (
+              <p class="doc" id="shared">
+                {words.shared(sharedLoads.value)}
               </p>
             ) : null}
             {condition.value ? (
