@@ -8,6 +8,7 @@ from pathlib import Path
 import kempe as kp
 import numpy as np
 import pytest
+from studio.test_foreign import DROP
 from studio.window import Studio
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -202,3 +203,15 @@ def test_a_driven_mechanism_that_was_dragged_lives_from_its_start(one: Studio) -
     one.mode("live")
     one.wait("kempe.state().then(({ t }) => t > 0.2)", 30.0)
     assert one.message() == ""
+
+
+def test_another_file_may_be_opened_while_a_motion_plays(one: Studio) -> None:
+    one.load(HANGING)
+    one.mode("live")
+    for name in ("four_bar", "pendulum") * 6:
+        one.wait("document.getElementById('live-play').title.startsWith('Pause')")
+        one.call(DROP, [f"{name}.toml", example(name)])
+        one.wait(f"kempe.toml().then(text => text.includes({example(name)[12:60]!r}))")
+        one.settle()
+        assert one.message() == ""
+        play(one)

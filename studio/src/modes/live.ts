@@ -6,7 +6,7 @@ import { plainly } from "../store/blame";
 import { note } from "../store/note";
 import { goHome, report, send } from "../store/session";
 import { preview, view } from "../store/sheet";
-import { announce, home, mechanism, mode, pose, poses, selection, live as state } from "../store/state";
+import { announce, home, loads, mechanism, mode, pose, poses, selection, live as state } from "../store/state";
 import { texts } from "../texts";
 import { Frames } from "./frames";
 import { type Grip, gripAt, gripOfKeys } from "./grip";
@@ -112,7 +112,7 @@ async function goToDrivers(): Promise<void> {
 }
 
 export async function play(): Promise<void> {
-  const started = mode.value;
+  const [started, loaded] = [mode.value, loads.value];
   await goToDrivers();
   if (mode.value !== started) return;
   const each = (ms: number) => {
@@ -120,7 +120,8 @@ export async function play(): Promise<void> {
     const by = Math.min(LONGEST_FRAME, ms / 1000) * speed.value;
     return by > 0 ? advance(by) : true;
   };
-  await frames.play(each, begin).catch(report);
+  // a step of a mechanism that another text has replaced meanwhile
+  await frames.play(each, begin).catch((error) => loads.value === loaded && report(error));
 }
 
 /** Advance by simulated seconds; false if the motion has ended. */
