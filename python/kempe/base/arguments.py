@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Sized
 from types import FunctionType
 from typing import TYPE_CHECKING, Any, NoReturn, ParamSpec, TypeVar
 
@@ -19,6 +19,11 @@ _MARK = "_arguments_are_explained"
 
 class ArgumentError(ModelError, TypeError):
     """A call with an unknown, missing or superfluous argument. It is also a ``TypeError``."""
+
+
+def is_given(value: object) -> bool:
+    """Whether an argument has a value. Empty lists have none, and an array has no truth."""
+    return len(value) > 0 if isinstance(value, Sized) else value is not None
 
 
 def explained(function: Callable[P, R]) -> Callable[P, R]:

@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from kempe.base.arguments import is_given
 from kempe.errors import ModelError
 from kempe.model.values import instance
 from kempe.sweeps import design as designs
@@ -35,13 +36,11 @@ def asked_of(case: Case, *given: Any) -> dict[str, Any]:
     asked = dict(zip(_NAMES, given, strict=True))
     if not case.sweep:
         return complete("sweep", asked)
-    if asked["variables"]:  # a design belongs to its variables
+    if is_given(asked["variables"]):  # a design belongs to its variables
         kept = {"measures": case.sweep.get("measures"), "analysis": case.sweep.get("analysis")}
     else:
         kept = dict(case.sweep)
-    return {key: asked[key] or kept.get(key) for key in _NAMES} | {
-        key: asked[key] if asked[key] is not None else kept.get(key) for key in ("n", "seed")
-    }
+    return {key: asked[key] if is_given(asked[key]) else kept.get(key) for key in _NAMES}
 
 
 def complete(section: str, asked: dict[str, Any]) -> dict[str, Any]:
@@ -51,7 +50,7 @@ def complete(section: str, asked: dict[str, Any]) -> dict[str, Any]:
         ModelError: there are none.
     """
     for key in ("variables", "measures"):
-        if not asked[key]:
+        if not is_given(asked[key]):
             raise ModelError(f"{section}: no {key}", hint=_remedy(section, key))
     return asked
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from kempe.base.arguments import is_given
 from kempe.errors import ModelError
 from kempe.model.functions import refuse_derivatives
 from kempe.model.values import instance, refuse, texts
@@ -32,9 +33,8 @@ def planned(case: Case, *given: Any) -> Plan:
     from kempe.case import Case
 
     instance(case, Case, "a case, as kp.load(path) returns")
-    pairs = zip(_NAMES, given, strict=True)
-    section = case.gradient
-    asked = complete("gradient", {key: of or section.get(key) for key, of in pairs})
+    own = {key: of for key, of in zip(_NAMES, given, strict=True) if is_given(of)}
+    asked = complete("gradient", {**dict.fromkeys(_NAMES), **case.gradient, **own})
     names = texts(asked["variables"], "variables")
     check_names(case, names)
     if len(set(names)) < len(names):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kempe.base.arguments import is_given
 from kempe.base.names import one_of
 from kempe.errors import ModelError
 from kempe.model.values import instance, mapping, refuse
@@ -56,8 +57,8 @@ def asked_of(case: Case, *arguments: Any) -> dict[str, Any]:
         section = {
             key: of for key, of in section.items() if key not in (*AIMS, "subject_to", "loads")
         }
-    asked = {key: section.get(key) if of is None or of == () else of for key, of in given.items()}
-    if not asked["variables"]:
+    asked = {key: of if is_given(of) else section.get(key) for key, of in given.items()}
+    if not is_given(asked["variables"]):
         hint = "pass variables={'L2': (20, 30)}, or declare [optimize]"
         raise ModelError("optimize: no variables", hint=hint)
     aims = [aim for aim in AIMS if asked[aim] is not None]
@@ -82,7 +83,8 @@ def problem_of(case: Case, asked: Mapping[str, Any]) -> Problem:
     cases = [case, *_loads(case, asked["loads"], names)]
     aim = next(aim for aim in AIMS if asked[aim] is not None)
     objective, *others = _objectives(case, aim, asked[aim], plan)
-    limits = tuple(limits_of(case, asked["subject_to"] or (), asked["analysis"]))
+    given = asked["subject_to"]
+    limits = tuple(limits_of(case, given if is_given(given) else (), asked["analysis"]))
     parameters = tuple(Parameters(replace(plan, case=one)) for one in cases)
     empty = Columns(())
     draft = Problem(
@@ -256,7 +258,7 @@ def _table(given: Any, key: str) -> Mapping[str, Any]:
 def _bound(name: str, given: Any) -> Bound:
     path = f"variables.{name}"
     form = "must be (least, largest) or (least, largest, 'log')"
-    if not isinstance(given, list | tuple) or len(given) not in (2, 3):
+    if not isinstance(given, list | tuple | np.ndarray) or len(given) not in (2, 3):
         refuse(path, f"{given!r}; {form}")
     least, largest = (_number(x, path) for x in given[:2])
     scale = given[2] if len(given) > 2 else "linear"
