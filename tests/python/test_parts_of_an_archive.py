@@ -167,3 +167,38 @@ def test_altered_accelerations_are_noticed_at_every_scale(scale: float, tmp_path
                 kp.load_solution(tmp_path / "s.npz")
         else:
             kp.load_solution(tmp_path / "s.npz")
+
+
+def pendulum() -> tuple[kp.Model, kp.State]:
+    m = kp.Model("pendulum", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass=2, length=0.5, ends=("A", "B"))
+    m.revolute("A", "ground.O", "rod.A")
+    return m, kp.assemble(m, {"rod.angle": 0.1})
+
+
+@pytest.mark.parametrize("span", [(0.1, 1.1), (1.1, 0.1)])
+def test_a_motion_over_a_quantity_goes_one_way(span: tuple[float, float], tmp_path: Path) -> None:
+    """Its values may fall all the way, but not fall and rise."""
+    m, start = pendulum()
+    found = kp.kinematics(m, start, over="rod.angle", range=span, n=5)
+    found.save(tmp_path / "s.npz")
+    assert np.array_equal(kp.load_solution(tmp_path / "s.npz").t, found.t)
+    with np.load(tmp_path / "s.npz") as stored:
+        arrays = dict(stored)
+    arrays["t"][1:3] = found.t[2:0:-1]
+    np.savez(tmp_path / "s.npz", **arrays)
+    with pytest.raises(kp.FileError, match="the times t are not in order"):
+        kp.load_solution(tmp_path / "s.npz")
+
+
+@pytest.mark.parametrize("row", range(9))
+def test_each_of_nine_rows_must_agree_with_the_model(row: int, tmp_path: Path) -> None:
+    m, start = pendulum()
+    kp.dynamics(m, start, t_end=0.4, output_step=0.05).save(tmp_path / "s.npz")
+    with np.load(tmp_path / "s.npz") as found:
+        arrays = dict(found)
+    arrays["a"][row, 2] += 1.0
+    np.savez(tmp_path / "s.npz", **arrays)
+    with pytest.raises(kp.FileError, match=f"t = {0.05 * row:g} s are not those of its model"):
+        kp.load_solution(tmp_path / "s.npz")

@@ -116,6 +116,12 @@ def test_weak_and_strong_gains_are_compared_at_each_step() -> None:
         "2 m against 4 mm.",
         "No constant step of the study diverges.",
     ]
+    for one, other in (
+        (lost(strong[0]), outcome(weak[0])),
+        (outcome(strong[0]), lost(weak[0])),
+        (lost(strong[0]), lost(weak[0])),
+    ):
+        assert not [words for words in told(one, other) if words.startswith("With constant")]
 
 
 def test_a_divergence_gives_time_gains_and_growth() -> None:

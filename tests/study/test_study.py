@@ -314,14 +314,34 @@ def test_other_variants_and_a_case_without_output_step(four_bar_file: Path) -> N
     assert [o.diverged for o in small.outcomes] == [False, False, True]
     assert small.outcomes[1].position_error < 1e-5
     assert "## Constant steps" in str(small)
+    reached = small.outcomes[2]
+    assert reached.solution is not None
+    cost = reached.solution.statistics
+    assert reached.diverged_at == pytest.approx(reached.solution.t[-1], abs=0.02)
+    assert (reached.steps, reached.evaluations) == (cost["steps"], cost["evaluations"])
+    assert reached.seconds == cost["seconds"] > 0.0
+    assert reached.steps == round(reached.solution.t[-1] / 0.02) > 0
+
+
+def test_the_steps_of_an_analysis_are_no_outputs_of_a_study(four_bar_file: Path) -> None:
+    """With output = "steps" the variants have 1500 common times, as without an output_step."""
+    text = four_bar_file.read_text(encoding="utf-8")
+    four_bar_file.write_text(text.replace("output_step = 0.01", 'output = "steps"'), "utf-8")
+    case = kp.load(four_bar_file)
+    ways = [Variant("reference", 10, 200, "RK45", tol) for tol in (1e-9, 1e-4)]
+    for one in kp.study(case, "release", ways=ways).outcomes:
+        assert one.solution is not None
+        t = one.solution.t
+        assert np.diff(t) == pytest.approx((t[-1] - t[0]) / 1500)
 
 
 def test_what_cannot_be_studied_is_refused(four_bar_file: Path) -> None:
     case = kp.load(four_bar_file)
     with pytest.raises(kp.ModelError, match="did you mean 'release'"):
         kp.study(case, "relase")
-    with pytest.raises(kp.ModelError, match="no analysis"):
+    with pytest.raises(kp.ModelError, match="no analysis") as caught:
         kp.study(kp.Case(case.model))
+    assert caught.value.hint == "add one, as [analyses.release]"
     with pytest.raises(kp.IntegrationError):
         kp.study(case, ways=[Variant("reference", 10, 200, "RK4", 0.02)])
 
