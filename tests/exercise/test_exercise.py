@@ -9,6 +9,7 @@ from typing import Any
 import kempe as kp
 import pytest
 from command_line import kempe
+from kempe.exercise import read_result
 
 CLASSICS = Path(__file__).parents[2] / "examples" / "classics"
 CRANK, PENDULUM = (CLASSICS / f"{name}_exercise.toml" for name in ("crank", "pendulum"))
@@ -207,3 +208,134 @@ def test_results_of_other_variants_and_formats_are_refused() -> None:
     assert not any(one.grade(empty).values())
     right = {name: {"given": of.shown} for name, of in one.questions.items()}
     assert all(one.grade({"kempe_result": 1, "seed": 4, "answers": right}).values())
+
+
+def rewritten(tmp_path: Path, *changes: tuple[str, str], more: str = "") -> kp.Case:
+    """The exercise of the crank with other texts."""
+    text = CRANK.read_text("utf-8")
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    path = tmp_path / "case.toml"
+    path.write_text(text + more, "utf-8")
+    return kp.load(path)
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "within"),
+    [
+        ("", 0.0026),
+        ("tolerance = 0.02", 0.0052),
+        ('tolerance = "5 %"', 0.013),
+        ('tolerance = "30"', 0.03),
+        ('tolerance = "2 cm"', 0.02),
+        ('tolerance = "-3 mm"', 0.003),
+    ],
+)
+def test_a_tolerance_is_a_share_or_a_length(tolerance: str, within: float, tmp_path: Path) -> None:
+    """Of 60 mm + 200 mm; 1 % if none is given."""
+    case = rewritten(tmp_path, ('tolerance = "0.5 mm"', tolerance))
+    one = kp.Exercise(case).questions["dead_centre"]
+    assert (one.value, one.within) == pytest.approx((0.26, within), rel=1e-9)
+    for side in (-1.0, 1.0):
+        assert one.check(260.0 + 999.0 * side * within)
+        assert not one.check(260.0 + 1001.0 * side * within)
+
+
+def test_what_is_no_tolerance_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(kp.ModelError) as caught:
+        kp.Exercise(rewritten(tmp_path, ('"0.5 mm"', '"few %"')))
+    told = "tolerance 'few %'; must be a share, or such as '2 %' or '0.5 N'"
+    assert str(caught.value).startswith(f"dead_centre: {told}")
+    zero = ('tolerance = "0.5 mm"', 'tolerance = "1 %"')
+    with pytest.raises(kp.ModelError, match="no relative tolerance") as caught:
+        kp.Exercise(rewritten(tmp_path, ("piston.x.max", "piston.y.max"), zero))
+    assert caught.value.hint == 'write a tolerance with a unit, such as "0.5 N"'
+
+
+def test_texts_hints_and_points_are_those_of_the_variant(tmp_path: Path) -> None:
+    more = """
+[exercise.questions.last]
+text = "How long is {l}?"
+quantity = "piston.x"
+points = 3.5
+hints = ["{r}, or", "{l} and {n}"]
+"""
+    case = rewritten(tmp_path, ("hints = [", 'hints = ["{r} here", '), more=more)
+    for seed in (0, 5):
+        one, (r, length, n) = numbers(tmp_path / "case.toml", seed, "r l n")
+        shown = f"{1e3 * r:g} mm", f"{1e3 * length:g} mm", f"{n * 30.0 / math.pi:.6g} rpm"
+        assert "A crank of {} turns at {},".format(shown[0], shown[2]) in one.text
+        assert one.questions["dead_centre"].hints == (
+            f"{shown[0]} here",
+            "Crank and rod lie on one line there.",
+            "Add both lengths.",
+        )
+        last = one.questions["last"]
+        assert last.text == f"How long is {shown[1]}?"
+        assert last.hints == (f"{shown[0]}, or", f"{shown[1]} and {shown[2]}")
+        assert (last.value, last.unit) == (pytest.approx(r + length), "m")
+    known = case.exercise["questions"]
+    points = {name: of.points for name, of in one.questions.items()}
+    assert points == {name: of.get("points", 1.0) for name, of in known.items()}
+    assert points["dead_centre"] == 1.0 and points["last"] == 3.5
+
+
+def test_the_seed_is_that_of_the_section_unless_one_is_given(tmp_path: Path) -> None:
+    own = rewritten(tmp_path, ("[exercise]\n", "[exercise]\nseed = 4\n"))
+    assert kp.Exercise(own).seed == 4
+    assert kp.Exercise(own).values == kp.Exercise(kp.load(CRANK), 4).values
+    assert kp.Exercise(own, 2).seed == 2
+    plain = kp.Exercise(kp.load(CRANK))
+    assert (plain.seed, plain.values) == (0, {})
+    assert plain.questions["dead_centre"].value == pytest.approx(0.26)
+    with pytest.raises(kp.ModelError, match="seed: -1; must be a whole number from 0"):
+        kp.Exercise(own, -1)
+
+
+def test_a_question_without_an_analysis_has_the_last_one(tmp_path: Path) -> None:
+    """The crank turns at 300 rpm for 0.2 s, or until 0.3 s in a second analysis."""
+    later = '[analyses.later]\ntype = "inverse_dynamics"\nt_end = 0.3\n\n[exercise]\n'
+    more = '\n[exercise.questions.at]\ntext = "?"\nquantity = "crank.angle"\nat = {}\n'
+    more += '\n[exercise.questions.end]\ntext = "?"\nmeasure = "crank.angle.final"\n'
+    named = ('analysis = "turn"\n', "")
+    for changes, at, end in (((named,), 0.15, 0.2), ((named, ("[exercise]\n", later)), None, 0.3)):
+        text = more if at else more.replace("0.15", "0.25")
+        found = kp.Exercise(rewritten(tmp_path, *changes, more=text)).questions
+        assert found["at"].value == pytest.approx(10.0 * math.pi * (at or 0.25))
+        assert found["end"].value == pytest.approx(10.0 * math.pi * end)
+        assert found["end"].unit == "rad"
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("[1, 2]", "the result is not a table"),
+        ("{", "the result is not JSON"),
+        ("3", "not a table"),
+    ],
+)
+def test_a_result_that_is_no_table_is_refused(text: str, told: str) -> None:
+    with pytest.raises(kp.ModelError, match=told):
+        read_result(text)
+
+
+def test_results_are_graded_with_their_points(tmp_path: Path) -> None:
+    """The force at the lowest point counts 2 of 4; marks of the file are not used."""
+    given = {
+        "release": {"given": "1 N", "right": True},
+        "lowest": {"given": 0.0},
+        "speed": "3",
+    }
+    one = kp.Exercise(kp.load(PENDULUM), 3)
+    given["lowest"] = {"given": one.questions["lowest"].shown, "right": False}
+    path = tmp_path / "miller.json"
+    content = {"kempe_result": 1, "seed": 3, "name": "Miller", "answers": given}
+    path.write_text(json.dumps(content), "utf-8")
+    assert read_result(path.read_text("utf-8")) == content
+    (told,) = json.loads(kempe("exercise", PENDULUM, "--check", path, "--json").stdout)["results"]
+    assert told["right"] == {"release": False, "lowest": True, "speed": False}
+    assert (told["points"], told["most"], told["name"], told["seed"]) == (2.0, 4.0, "Miller", 3)
+    plain = kempe("exercise", PENDULUM, "--check", path).stdout
+    assert "miller.json: Miller, variant 3" in plain
+    assert "2 of 4 points" in plain
