@@ -265,7 +265,7 @@ hints = ["{r}, or", "{l} and {n}"]
     for seed in (0, 5):
         one, (r, length, n) = numbers(tmp_path / "case.toml", seed, "r l n")
         shown = f"{1e3 * r:g} mm", f"{1e3 * length:g} mm", f"{n * 30.0 / math.pi:.6g} rpm"
-        assert "A crank of {} turns at {},".format(shown[0], shown[2]) in one.text
+        assert f"A crank of {shown[0]} turns at {shown[2]}," in one.text
         assert one.questions["dead_centre"].hints == (
             f"{shown[0]} here",
             "Crank and rod lie on one line there.",
@@ -299,10 +299,9 @@ def test_a_question_without_an_analysis_has_the_last_one(tmp_path: Path) -> None
     more = '\n[exercise.questions.at]\ntext = "?"\nquantity = "crank.angle"\nat = {}\n'
     more += '\n[exercise.questions.end]\ntext = "?"\nmeasure = "crank.angle.final"\n'
     named = ('analysis = "turn"\n', "")
-    for changes, at, end in (((named,), 0.15, 0.2), ((named, ("[exercise]\n", later)), None, 0.3)):
-        text = more if at else more.replace("0.15", "0.25")
-        found = kp.Exercise(rewritten(tmp_path, *changes, more=text)).questions
-        assert found["at"].value == pytest.approx(10.0 * math.pi * (at or 0.25))
+    for changes, at, end in (((named,), 0.15, 0.2), ((named, ("[exercise]\n", later)), 0.25, 0.3)):
+        found = kp.Exercise(rewritten(tmp_path, *changes, more=more.format(at))).questions
+        assert found["at"].value == pytest.approx(10.0 * math.pi * at)
         assert found["end"].value == pytest.approx(10.0 * math.pi * end)
         assert found["end"].unit == "rad"
 
