@@ -4,6 +4,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe.plot import style
+from kempe.plot.design_pages import free_points
 from kempe.plot.envelope import draw_envelope, logarithmic
 from matplotlib.collections import PolyCollection
 from motions import results
@@ -77,6 +78,27 @@ def test_runs_with_drivers_have_paths_and_efforts(example: str, design: list[str
         *("mechanism", "residual", "energy", "reactions", "motion"),
         *design,
     ]
+
+
+def test_paths_are_those_of_points_that_no_pin_on_ground_guides() -> None:
+    """A pin and a slide on ground guide a body; a pin in a slot does not. Joints have no path."""
+    m = kp.Model("three bodies")
+    m.ground.points(O=(0, 0), S=(3, 0))
+    for name in ("turning", "sliding", "riding"):
+        m.body(name, mass=1, inertia=1, points={"A": (0, 0), "B": (1, 0), "C": (0, 0)})
+    m.revolute("pin", "ground.O", "turning.A")
+    m.translational("slide", "ground.S", "sliding.A", axes=(0, 0))
+    m.pin_in_slot("slot", "ground.S", "riding.A", axis="90 deg")
+    m.revolute("tip", "turning.B", "sliding.B")
+    compiled = m.compile()
+    assert free_points(compiled) == ["riding.B"]
+    assert free_points(compiled, guided=False) == ["riding.B"]
+    m.body("loose", mass=1, inertia=1, points={"D": (0.1, 0), "E": (0, 2)})
+    tree = m.tree()
+    tree["bodies"]["turning"]["points"] |= {"F": [0.5, 0.5]}
+    compiled = kp.Model.from_tree(tree).compile()
+    assert free_points(compiled) == ["turning.F", "riding.B", "loose.D", "loose.E"]
+    assert free_points(compiled, guided=False) == ["riding.B", "loose.D", "loose.E"]
 
 
 @pytest.mark.parametrize("mass", [1e-3, 1.0, 1e3])

@@ -133,6 +133,18 @@ def test_enough_elements_have_a_small_error() -> None:
     assert bent(few.enough // 2).error > 2e-3
 
 
+@pytest.mark.parametrize("torque", [1e-3, -0.5])
+def test_a_torque_at_a_named_place_is_no_error(torque: float) -> None:
+    """The moment is the torque up to the place and zero beyond, with a jump that belongs there."""
+    m = clamped(points={"P": "50 %"})
+    m.torque("turn", "rod.P", torque=torque)
+    beam = kp.equilibrium(m, kp.assemble(m)).state.beam("rod")
+    before = np.arange(len(beam.s)) < len(beam.s) // 2
+    np.testing.assert_allclose(beam.bending_moment, np.where(before, torque, 0.0), atol=1e-9)
+    assert beam.error < 1e-8
+    assert beam.enough == 4
+
+
 def test_lists_show_a_beam_as_one() -> None:
     m = clamped(points={"P": "25 %"})
     state = kp.assemble(m)

@@ -135,6 +135,25 @@ def test_a_wrong_frame_is_an_error(arguments: dict[str, str], message: str) -> N
         crank()["A"].reaction(on="bar", **arguments)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("place", [(0.0, 0.0), (1e9, 0.0), (0.0, -1e9)])
+def test_a_direction_within_rounding_errors_of_places_is_refused(
+    place: tuple[float, float],
+) -> None:
+    """1 µm is a direction near the origin; at 1e9 m, places have errors of 0.1 µm."""
+    m = kp.Model("far")
+    m.ground.points(A=place)
+    m.body("bar", mass=1, inertia=1, points={"A": (0, 0), "near": (-1e-6, 1e-6), "B": (-3e3, 0)})
+    m.revolute("A", "ground.A", "bar.A")
+    view = kp.assemble(m, set={"bar.angle": 0})["A"]
+    assert view.reaction(on="bar", frame="radial", about="B").axis == pytest.approx(0.0)
+    if place == (0.0, 0.0):
+        found = view.reaction(on="bar", frame="radial", about="near")
+        assert found.axis == pytest.approx(-np.pi / 4)
+    else:
+        with pytest.raises(kp.ModelError, match="A lies at the origin of the radial direction"):
+            view.reaction(on="bar", frame="radial", about="near")
+
+
 def door() -> kp.Solution:
     """A door on two slides, one too many, that a driver moves; a lamp hangs on it."""
     m = kp.Model("door", gravity=(0, -9.81), redundancy="allow")

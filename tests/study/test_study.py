@@ -314,6 +314,7 @@ def test_other_variants_and_a_case_without_output_step(four_bar_file: Path) -> N
     assert [o.diverged for o in small.outcomes] == [False, False, True]
     assert small.outcomes[1].position_error < 1e-5
     assert "## Constant steps" in str(small)
+    assert drawn(small, "gaps").get_title() == "no variant to draw"
     reached = small.outcomes[2]
     assert reached.solution is not None
     cost = reached.solution.statistics
