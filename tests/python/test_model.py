@@ -24,6 +24,32 @@ def test_the_dimensions_of_the_flagship(model: kp.Model) -> None:
     assert model.parameters["k"] == 1e6
 
 
+@pytest.mark.parametrize("place", [(0.25, -3.0), (-1e3, 2.0)])
+def test_what_an_element_lacks_is_zero(place: tuple[float, float]) -> None:
+    m = kp.Model("pair")
+    m.ground.points(A=place)
+    for name in ("one", "two"):
+        m.body(name, mass=7, inertia=3, center=(0.5, 0.25), points={"P": (2, -1)})
+        m.revolute(f"pin_{name}", "ground.A", f"{name}.P")
+    m.coordinate_driver("motor", "one.angle", value="t")
+    m.coupling("twice", terms={"one.angle": 2, "two.angle": -1})
+    infos = {**m.compile().constraints}
+    assert (infos["pin_one"].point_i, infos["pin_one"].point_j) == (place, (2.0, -1.0))
+    for name in ("motor", "twice"):
+        assert (infos[name].point_i, infos[name].point_j) == ((0.0, 0.0), (0.0, 0.0))
+    ground, one = m.compile().all_bodies["ground"], m.bodies["one"]
+    assert (ground.mass, ground.inertia, ground.center) == (0.0, 0.0, (0.0, 0.0))
+    assert (one.mass, one.inertia, one.center) == (7.0, 3.0, (0.5, 0.25))
+
+
+@pytest.mark.parametrize(
+    ("entry", "kind"), [(3, "a number"), ("x", "a text"), ([1, 2], "a list"), (True, "true or false")]
+)
+def test_an_element_that_is_no_table_is_refused(entry: object, kind: str) -> None:
+    with pytest.raises(kp.ModelError, match=f"forces.f: {kind}; must be a table with fields"):
+        kp.Model.from_tree({"forces": {"f": entry}}).compile()
+
+
 def test_the_repr_lists_the_elements(model: kp.Model) -> None:
     assert "crank, coupler, rocker" in repr(model)
     assert "spring" in repr(model)
