@@ -154,16 +154,16 @@ def imbalance(found: list[Load], of: Inertia) -> float:
     moment = sum(moments, -of.moment)
     arms = [np.hypot(*np.moveaxis(one.force, -1, 0)) for one in found]
     inertial = np.hypot(*np.moveaxis(of.force, -1, 0))
-    most = max((float(np.max(a, initial=0.0)) for a in [*arms, inertial]), default=0.0)
+    most = max(float(np.max(a)) for a in [*arms, inertial])
     # a moment by a force at a place has the rounding error of its parts
     turning = [np.abs(m) for m in [*moments, of.moment]]
     turning += [
         np.hypot(*np.moveaxis(one.place - of.centre, -1, 0)) * size
         for one, size in zip(found, arms, strict=True)
     ]
-    largest = max((float(np.max(m, initial=0.0)) for m in turning), default=0.0)
+    largest = max(float(np.max(m)) for m in turning)
     shares = [
-        float(np.abs(error).max(initial=0.0)) / scale
+        float(np.abs(error).max()) / scale
         for error, scale in ((force, most), (moment, largest))
         if scale > 0.0
     ]
