@@ -43,7 +43,8 @@ def test_what_an_element_lacks_is_zero(place: tuple[float, float]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("entry", "kind"), [(3, "a number"), ("x", "a text"), ([1, 2], "a list"), (True, "true or false")]
+    ("entry", "kind"),
+    [(3, "a number"), ("x", "a text"), ([1, 2], "a list"), (True, "true or false")],
 )
 def test_an_element_that_is_no_table_is_refused(entry: object, kind: str) -> None:
     with pytest.raises(kp.ModelError, match=f"forces.f: {kind}; must be a table with fields"):

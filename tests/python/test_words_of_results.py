@@ -1,0 +1,91 @@
+"""What the results of analyses call themselves, and their tables, by hand."""
+
+import kempe as kp
+import numpy as np
+import pytest
+from python.test_rest_paths import tilted
+
+SIZES = [1e-2, 1.0, 40.0]
+
+
+def pendulums(count: int, size: float = 1.0) -> tuple[kp.Model, kp.State]:
+    """Point masses on light rods, each on a pin of its own, that hang at rest."""
+    m = kp.Model("pendulums", gravity=(0, -9.81))
+    for k in range(count):
+        m.ground.points(**{f"O{k}": (k, 0)})
+        m.body(f"b{k}", mass=2, inertia=0, points={"O": (0, (k + 1) * size)})
+        m.revolute(f"j{k}", f"ground.O{k}", f"b{k}.O")
+    return m, kp.assemble(m)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_modes(size: float) -> None:
+    for count, words in ((0, "0 modes"), (1, "1 mode"), (3, "3 modes")):
+        m, start = pendulums(count, size)
+        if not count:
+            m.body("held", mass=1, inertia=1, points={"O": (0, 0)})
+            m.ground.points(O=(0, 0))
+            m.weld("weld", "ground.O", "held.O")
+            start = kp.assemble(m)
+        found = kp.modes(m, start)
+        assert repr(found) == f"<ModesResult: {words} at t = 0 s>"
+        expected = sorted(np.sqrt(9.81 / ((k + 1) * size)) for k in range(count))
+        np.testing.assert_allclose(sorted(found.omega), expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_rests(size: float) -> None:
+    m, start = tilted(1.0, size, 0.5)
+    most = 9.81 * size / 2
+    name = "<EquilibriumResult of 'tilted': "
+    assert repr(kp.equilibrium(m, start)) == f"{name}stable>"
+    upwards = kp.assemble(m, set={"rod.angle": 0.5 + np.pi / 2})
+    assert repr(kp.equilibrium(m, upwards)) == f"{name}not stable>"
+    for end, folds in ((0.5, 0), (1.5, 1)):
+        path = kp.equilibrium(m, start, over="p", range=(0, end * most))
+        assert repr(path) == f"{name}{len(path.values)} points over p, {folds} folds>"
+    table = {column.name: column for column in path.tables()["equilibrium"]}
+    np.testing.assert_array_equal(table["p"].values, path.values)
+    angle = table["rod.angle"].values
+    np.testing.assert_allclose(most * np.cos(angle - 0.5), path.values, atol=1e-9 * most)
+    eigenvalues = table["eigenvalue_1"].values
+    np.testing.assert_allclose(eigenvalues, -most * np.sin(angle - 0.5), atol=1e-6 * most)
+    np.testing.assert_array_equal(table["stable"].values, eigenvalues > 0.0)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_configurations(size: float) -> None:
+    """A rod of 2 between a crank pin at 1 and a slide: two places of the slide."""
+    m = kp.Model("crank")
+    m.ground.points(O=(0, 0))
+    m.bar("crank", mass=1, length=size, ends=("O", "A"))
+    m.bar("rod", mass=1, length=2 * size, ends=("A", "B"))
+    m.body("slide", mass=1, inertia=1, points={"B": (0, 0)})
+    m.revolute("O", "ground.O", "crank.O")
+    m.revolute("A", "crank.A", "rod.A")
+    m.revolute("B", "rod.B", "slide.B")
+    m.translational("S", "ground.O", "slide.B", axes=(0, 0))
+    found = kp.configurations(m, set={"crank.angle": 0.4})
+    assert repr(found) == "<ConfigurationsResult: 2 configurations; there are no others>"
+    table = {column.name: column.values for column in found.tables()["configurations"]}
+    assert table["configuration"].tolist() == [1.0, 2.0]
+    half = np.sqrt(4.0 - np.sin(0.4) ** 2)
+    expected = [size * (np.cos(0.4) + sign * half) for sign in (-1, 1)]
+    np.testing.assert_allclose(sorted(table["slide.x"]), expected, rtol=1e-9)
+    limits = kp.limits(m, kp.assemble(m, set={"crank.angle": 0.4}), over="slide.x")
+    assert repr(limits) == f"<LimitsResult {limits.report()[0]}>"
+
+
+def test_mobility() -> None:
+    m, start = pendulums(1)
+    assert repr(kp.mobility(m, start)) == "<MobilityResult: 1 degree of freedom>"
+    m, start = pendulums(2)
+    assert repr(kp.mobility(m, start)) == "<MobilityResult: 2 degrees of freedom>"
+    m = kp.Model("door", redundancy="allow")
+    m.ground.points(A=(0, 0), B=(0, 1))
+    m.body("door", mass=10, inertia=1, points={"A": (0, 0), "B": (0, 1)})
+    m.translational("low", "ground.A", "door.A")
+    m.translational("high", "ground.B", "door.B")
+    found = kp.mobility(m, kp.assemble(m))
+    assert len(found.redundant) == 2
+    assert repr(found) == "<MobilityResult: 1 degree of freedom, 2 redundant>"
