@@ -145,6 +145,32 @@ def test_a_prior_decides_what_data_do_not() -> None:
     assert found.values["k"] == pytest.approx(30, abs=0.2)
 
 
+@pytest.mark.parametrize("n", [1, 2, 3])
+def test_errors_need_more_values_than_parameters(n: int) -> None:
+    """A prior counts as a value; with a given sigma any number of values is enough."""
+    names, remedy = dict.fromkeys(["k", "x0"]), "give sigma, or more values"
+    start = slider(k=50.5, x0=0.11)
+    for priors, rows in ((None, n), ({"x0": (0.1, 0.01)}, n + 1)):
+        if rows < 2:
+            continue
+        found = kp.fit(start, slider_data(4, n=n), names, priors=priors)
+        told = f"{rows} values for 2 parameters leave nothing from which errors follow: {remedy}"
+        assert (told in found.remarks) == (rows == 2), found.remarks
+        is_known = rows > 2
+        assert np.isfinite(list(found.standard_errors.values())).tolist() == [is_known] * 2
+        assert np.isfinite(found.sigma["guide.displacement"]) == is_known
+    if n >= 2:
+        data = slider_data(4, n=n)
+        data = kp.Data(
+            {"t": data.t["guide.displacement"], "x": data.values["guide.displacement"]},
+            columns={"guide.displacement": "x"},
+            sigma={"guide.displacement": 1e-4},
+        )
+        found = kp.fit(start, data, names)
+        assert np.isfinite(list(found.standard_errors.values())).all()
+        assert not [text for text in found.remarks if remedy in text]
+
+
 def test_several_experiments_share_parameters() -> None:
     """With an added mass, mass and stiffness are determined, not only their ratio."""
     data = slider_data(1)

@@ -52,7 +52,7 @@ class Formula:
         known = [slopes[name] for name in self.names]
         value, partial = _core.formula_value(self.of, list(self.names), [x for x, _ in known])
         width = len(next(iter(slopes.values()))[1])
-        parts = (p * of if p else 0.0 * of for p, (_, of) in zip(partial, known, strict=True))
+        parts = (p * of for p, (_, of) in zip(partial, known, strict=True))
         return value, sum(parts, np.zeros(width))
 
     def size(self, slopes: Mapping[str, tuple[float, Floats]]) -> float:
