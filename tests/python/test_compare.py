@@ -48,6 +48,26 @@ def test_another_solution_is_compared_by_all_common_quantities() -> None:
     assert one.largest["2*ball.y - ball.x"] == pytest.approx(0.8, rel=1e-9)
 
 
+def test_motions_over_different_quantities_are_not_compared() -> None:
+    m = kp.Model("rod")
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass=1, length=1, ends=("O", "P"))
+    m.revolute("O", "ground.O", "rod.O")
+    start = kp.assemble(m, {"rod.angle": 0})
+    names = ("rod.angle", "rod.P.y")
+    over = [kp.kinematics(m, start, over=name, range=(0, 0.5)) for name in names]
+    timed = kp.dynamics(m, start, t_end=1, output_step=0.1)
+    for one, other, pair in (
+        (over[0], over[1], "rod.angle and rod.P.y"),
+        (over[0], timed, "rod.angle and t"),
+        (timed, over[0], "t and rod.angle"),
+    ):
+        with pytest.raises(kp.ModelError) as caught:
+            kp.compare(one, other)
+        assert f"reference: the motions go over different quantities, {pair}" in str(caught.value)
+    assert kp.compare(over[0], over[0]).largest["rod.y"] == 0.0
+
+
 @pytest.mark.parametrize("name", ["four_bar", "slamming_door", "cam_roller", "motor_press"])
 def test_the_own_files_have_no_difference(name: str, tmp_path: Path) -> None:
     """Also with impacts, where two rows have the same time, and with forces."""

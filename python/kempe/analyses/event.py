@@ -71,12 +71,12 @@ class Event(metaclass=Explained):
 
 
 def _stop(value: object, path: str) -> bool | int:
-    """True, or a number of events from 1.
+    """True, or a number of events, which the core checks.
 
     Raises:
         ModelError: another value.
     """
-    if value is True or (isinstance(value, int) and value >= 1):
+    if isinstance(value, int):
         return value
     raise ModelError(f"{path}: {value!r}; {_STOPS}", name=path)
 
