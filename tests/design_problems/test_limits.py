@@ -6,6 +6,7 @@ import pytest
 from design_problems.machines import lamp
 from design_problems.test_faults import dyad
 from kempe.sweeps.problems.asked import _NAMES, problem_of
+from kempe.sweeps.problems.formulas import read_limit
 
 
 def oscillator(analysis: kp.Dynamics | None = None) -> kp.Case:
@@ -31,6 +32,25 @@ def test_limits_whose_side_is_zero(size: float) -> None:
         assert best.success and best.values["k"] == pytest.approx(k, rel=1e-5)
         assert best.objective == pytest.approx(objective, rel=1e-5)
         assert dict(best.active) == {limit: pytest.approx(gain, rel=1e-4)}
+
+
+@pytest.mark.parametrize(
+    ("text", "small", "large"),
+    [
+        ("b.vx.max <= 3*k", "b.vx.max", "3*k"),
+        ("b.vx.max >= 3*k", "3*k", "b.vx.max"),
+        ("`a < b.max` <= 3*k", "`a < b.max`", "3*k"),
+        ("k > `a >= b.max`", "`a >= b.max`", "k"),
+        ("`a <= b.max` + `c < d.min` < `e = f.rms` - k", "`a <= b.max` + `c < d.min`",
+         "`e = f.rms` - k"),
+    ],
+)  # fmt: skip
+def test_a_comparison_is_not_within_a_quoted_name(text: str, small: str, large: str) -> None:
+    model = oscillator().model.compile()
+    limit = read_limit(model, text, ())
+    assert [side.text for side in limit.sides] == [small, large]
+    with pytest.raises(kp.ModelError, match="must be a comparison"):
+        read_limit(model, f"({text})", ())
 
 
 def test_a_limit_at_zero_of_a_variable() -> None:

@@ -149,6 +149,22 @@ def test_wrong_times(change: dict[str, object], message: str) -> None:
         kp.fit(oscillator(1, 1, 1), data, {"k": (0.1, None)})
 
 
+@pytest.mark.parametrize("rate", [0.03, 1.0, 30.0])
+def test_data_that_no_shift_joins_to_the_run(rate: float) -> None:
+    """From 3 to 5 of 10 the shift may go from -3 to 5."""
+    t = np.array([3.0, 4.0, 5.0]) / rate
+    data = kp.Data({"t": t, "x": np.cos(rate * t)}, columns={"b.x": "x"}, shift="t0")
+    case = oscillator(1, rate, 1)
+    for low, high in ((6.0, 9.0), (-9.0, -4.0)):
+        with pytest.raises(kp.ModelError) as caught:
+            kp.fit(case, data, {"k": (0, None), "t0": (low / rate, high / rate)})
+        ends = [f"{x / rate:.6g}" for x in (3, 5, 0, 10)]
+        told = "data: they go from {} to {} s, and the run from {} to {} s, ".format(*ends)
+        assert str(caught.value).startswith(f"{told}which no t0 within its bounds can join")
+    found = kp.fit(case, data, {"k": (0, None), "t0": (-4.0 / rate, 4.0 / rate)})
+    assert found.values["t0"] == pytest.approx(0.0, abs=1e-3 / rate)
+
+
 def test_times_that_are_missing_or_too_many() -> None:
     case = oscillator(1, 1, 1)
     data = kp.Data({"x": [1.0, 0.5]}, t=None, columns={"b.x": "x"})
