@@ -198,7 +198,7 @@ def rate_name(model: CompiledModel, name: str) -> str:
     element = model.constraints.get(owner) or model.forces.get(owner)
     for of in element.measured if element is not None else ():
         rates[of.names[0]] = of.names[1]
-    if element is not None and quantity in dict(element_coordinates(model, owner)):
+    if quantity in dict(element_coordinates(model, owner)):
         rates[quantity] = f"{quantity}_rate"
     return f"{owner}.{rates.get(quantity, quantity)}"
 
