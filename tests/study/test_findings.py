@@ -227,6 +227,32 @@ def test_tables_have_the_numbers_of_the_outcomes(tmp_path: Path) -> None:
         assert row == {key: "" if one is None else str(one) for key, one in record.items()}
 
 
+def test_a_document_has_a_table_for_each_group_and_the_findings(tmp_path: Path) -> None:
+    weak = outcome(Variant("stabilization", 1, 20, "RK45", 1e-3), steps=234)
+    split = Outcome(**{**vars(lost(Variant("step", 0, 0, "RK4", 0.5))), "reason": "|Φ| grows"})
+    study = Study("rig|2", "run", (REFERENCE, weak, split))
+    written = study.save(tmp_path)
+    assert [path.name for path in written] == ["study.md", "study.csv", "study.json"]
+    head, *parts = written[0].read_text(encoding="utf-8").split("\n\n## ")
+    assert head == (
+        "# Study of run: rig|2\n\n"
+        "Errors are the largest differences of any body from the most accurate run\n"
+        f"({REFERENCE.variant.name}) over all output times; the residual is the largest |Φ|."
+    )
+    columns = "angle error / rad | position error / m | residual / m | energy error | steps"
+    table = f"| variant | {columns} | evaluations | time / ms |\n| --- |{' ---: |' * 7}\n| "
+    for part, one in zip(parts[1:3], (weak, split), strict=True):
+        title, _, rest = part.partition("\n\n")
+        assert title[0].isupper() and rest.startswith(table + one.variant.name)
+        assert rest.count("\n") == 2
+    assert r": \|Φ\| grows |" in parts[2]
+    told = study.findings()
+    assert parts[3] == "\n".join(["Findings", "", *(f"- {one}" for one in told), ""])
+    content = json.loads(written[2].read_text(encoding="utf-8"))
+    assert (content["title"], content["analysis"]) == ("rig|2", "run")
+    assert content["findings"] == told and len(content["variants"]) == 3
+
+
 def test_tables_and_findings_have_the_display_units(tmp_path: Path) -> None:
     """1.25e-4 rad = 0.00716°, 3.5 mm, 7.5 µm, 12.5 ms, 62.5 ms; JSON is in SI units."""
     made = outcome(Variant("stabilization", 10, 200, "RK4", 2e-3))
