@@ -109,6 +109,41 @@ def test_the_table_has_the_law_and_the_curves(tmp_path: Path) -> None:
         cam.write_csv(tmp_path / "never.csv", step="0.7 deg")
 
 
+@pytest.mark.parametrize("size", [1e-2, 1.0, 50.0])
+def test_the_table_has_both_walls_and_both_cams(size: float, tmp_path: Path) -> None:
+    """Points of the walls of a groove are a roller's diameter apart, with the path between them."""
+    cam = translating(size=size, closure="groove")
+    pair = oscillating(size=size, closure="conjugate")
+    found = []
+    for k, one in enumerate((cam, pair)):
+        path = one.write_csv(tmp_path / f"{k}.csv", step="1 deg")
+        rows = list(csv.DictReader(path.read_text("utf-8").splitlines()))
+        columns = {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+        names = {name.rpartition("_")[0] for name in columns if name.endswith("_x [m]")}
+        places = {n: columns[f"{n}_x [m]"] + 1j * columns[f"{n}_y [m]"] for n in names}
+        found.append(places)
+    groove, both = found
+    assert set(groove) == {"pitch", "profile", "outer"}
+    assert abs(groove["outer"] - groove["profile"]) == pytest.approx(0.016 * size, rel=1e-9)
+    middle = (groove["outer"] + groove["profile"]) / 2
+    assert abs(middle - groove["pitch"]).max() < 1e-9 * size
+    assert set(both) == {"pitch", "profile", "conjugate"}
+    angle = np.radians(np.arange(360))
+    expected = pair.at(angle, second=True).profile
+    assert abs(both["conjugate"] - expected).max() < 1e-12 * size
+
+
+def test_the_case_has_the_curves_that_it_needs() -> None:
+    for cam, names in (
+        (translating(), {"rim"}),
+        (translating("flat"), {"rim"}),
+        (translating(closure="groove"), {"rim", "outer", "pitch"}),
+        (oscillating(closure="conjugate"), {"rim", "second", "pitch"}),
+        (translating("flat", closure="conjugate"), {"rim", "second"}),
+    ):
+        assert set(cam.case.model.compile().bodies["cam"].curves) == names
+
+
 def test_a_programme_in_a_file(tmp_path: Path) -> None:
     path = tmp_path / "lift.csv"
     path.write_text(LIFT, "utf-8")

@@ -125,6 +125,9 @@ MECHANISMS: dict[str, Callable[[], object]] = {
     "balance a model": lambda: design.balance(four_bar(1.0, 1.0, 1.0)[0].model),  # type: ignore[arg-type]
     "balance without motion": lambda: design.balance(kp.Case(four_bar(1.0, 1.0, 1.0)[0].model)),
     "balance without drive": lambda: design.balance(pendulum(), of="torque"),
+    "balance without pivots": lambda: design.balance(
+        kp.Case(slid().model, None, [kp.InverseDynamics(t_end=1.0)])
+    ),
     "balance a free motion": lambda: design.balance(pendulum()),
     "centre of one": lambda: design.instant_centre(moved(), "rod", "rod"),
     "centre at rest": lambda: design.instant_centre(driven("0.2 + 0*t"), "ground", "rod"),

@@ -112,6 +112,9 @@ def balance(
         raise unknown("quantity to balance", of, _BALANCED)
     own = _Measure(case, of, about)
     pivots = _pivots(case)
+    if not pivots:
+        hint = "counterweights turn with bodies that have one"
+        raise ModelError("no body has a revolute joint to ground", hint=hint)
     for name in on or ():
         if name not in pivots:
             raise unknown("body with a revolute joint to ground", name, pivots)
@@ -126,7 +129,7 @@ def balance(
         inertia = (way[1] + way[-1]) / 2
         columns.append([(way[1] - way[-1]) / 2, way[1j] - inertia, inertia])
     found = least(own.base, np.array(columns), linear=of == "force")
-    most = abs(found).max(initial=0.0)
+    most = abs(found).max()
     kept = {
         name: complex(moment) * own.scale
         for name, moment in zip(chosen, found, strict=True)

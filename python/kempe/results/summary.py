@@ -109,7 +109,7 @@ def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
     force = sampled.peak(read)
     torque = sampled.peak(lambda motion: motion.constraint(name).torque(on=on))
     arm = size_of(sampled.solution.initial)
-    has_torque = abs(torque.value) > _NO_TORQUE * abs(force.value) * arm
+    has_torque = abs(torque.value) > _NO_TORQUE * force.value * arm
     choice = sampled.solution.constraint(name).choice
     return {
         "joint": name,

@@ -112,8 +112,8 @@ def growth(alpha: float, beta: float, step: float) -> float:
 def _orders(study: Outcomes) -> Iterator[str]:
     """Observed order of RK4: the slope of the error over the step."""
     for gains in ((10.0, 200.0), (1.0, 20.0)):
-        group = [o for o in _at(study, *gains).values() if not o.diverged]
-        used = [o for o in group if o.position_error > DOUBT]
+        # the error of a variant that diverged is NaN, which is not larger
+        used = [o for o in _at(study, *gains).values() if o.position_error > DOUBT]
         if len(used) >= 3:
             h, error = _logarithms((o.variant.number, o.position_error) for o in used)
             slope = float(np.polyfit(h, error, 1)[0])
