@@ -1,5 +1,7 @@
 """Limits whose sides are zero, have units, or occur twice; objectives without columns or slopes."""
 
+from types import SimpleNamespace
+
 import kempe as kp
 import numpy as np
 import pytest
@@ -7,6 +9,8 @@ from design_problems.machines import lamp
 from design_problems.test_faults import dyad
 from kempe.sweeps.problems.asked import _NAMES, problem_of
 from kempe.sweeps.problems.formulas import read_limit
+from kempe.sweeps.problems.optimum import _distinct
+from kempe.sweeps.problems.rewritten import rewritten
 
 
 def oscillator(analysis: kp.Dynamics | None = None) -> kp.Case:
@@ -17,6 +21,33 @@ def oscillator(analysis: kp.Dynamics | None = None) -> kp.Case:
     m.translational("guide", "ground.O", "b.P")
     m.spring_damper("spring", "ground.O", "b.P", stiffness="k", free_length="zero")
     return kp.Case(m, {"set": {"b.x": 1.0}}, [analysis or kp.Dynamics(t_end=5, output_step=0.05)])
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_candidates_differ_in_their_place_or_in_their_objective(scale: float, sign: float) -> None:
+    """Of near places one is kept, unless the objectives differ by more than a part in 10 000."""
+    rows = {"a": (0.2, 1.0), "b": (0.2005, 1.00005), "c": (0.2005, 1.01), "d": (0.7, 1.00005)}
+    runs = [
+        SimpleNamespace(row=np.array([x]), objective=sign * scale * y, holds=True, name=name)
+        for name, (x, y) in rows.items()
+    ]
+    problem = SimpleNamespace(sign=sign, shares=lambda row: row)
+    kept = _distinct(problem, [runs[k] for k in (3, 2, 1, 0)])  # type: ignore[arg-type, list-item]
+    assert [one.name for one in kept] == ["a", "d", "c"]  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("unit", ["µm", "°", "mm", " kN", "*deg"])
+def test_a_rewritten_value_keeps_its_unit(unit: str) -> None:
+    factor = {"µm": 1e-6, "mm": 1e-3, " kN": 1e3}.get(unit, np.pi / 180)
+    text = f'[parameters]\nk = "4{unit}"  # first\nother = 3\n'
+    head = 'kempe = 1\ntitle = "t"\n'
+    new = rewritten(head + text, {"k": 2.5 * factor})
+    assert new is not None
+    line = new.splitlines()[3]
+    value, _, rest = line.removeprefix('k = "').partition(unit)
+    assert float(value) == pytest.approx(2.5) and rest == '"  # first'
+    assert new.replace(line, text.splitlines()[1]).rstrip() == (head + text).rstrip()
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])

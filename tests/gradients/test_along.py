@@ -71,6 +71,21 @@ def test_a_driven_motion() -> None:
     assert efforts.slope("drive.effort", "a") == pytest.approx(slope, abs=1e-6 * abs(slope).max())
 
 
+@pytest.mark.parametrize(("mass", "size"), [(2.0, 0.3), (1e-3, 40.0)])
+def test_the_effort_over_a_quantity(mass: float, size: float) -> None:
+    """At rest a bar on a pin needs m g a/2 cos φ, which grows with its length a and its mass."""
+    m = kp.Model("bar", gravity=(0, -9.81), parameters={"a": size, "m": mass})
+    m.ground.points(O=(0, 0))
+    m.bar("bar", mass="m", length="a", ends=("O", "A"))
+    m.revolute("O", "ground.O", "bar.O")
+    way: dict[str, Any] = {"over": "bar.angle", "range": (0.1, 2.0), "n": 9, "static": True}
+    sol = kp.inverse_dynamics(m, kp.assemble(m), **way, slopes=["a", "m"])
+    turn = np.cos(sol.t) * 9.81 / 2
+    assert sol["over.effort"] == pytest.approx(turn * mass * size, rel=1e-9)
+    assert sol.slope("over.effort", "a") == pytest.approx(turn * mass, rel=1e-9)
+    assert sol.slope("over.effort", "m") == pytest.approx(turn * size, rel=1e-9)
+
+
 def _start(m: kp.Model, change: float) -> tuple[kp.State]:
     other = m.with_parameters({"a": 0.3 + change})
     return (kp.assemble(other, guess={"slide.x": 1.3, "rod.angle": 0}),)

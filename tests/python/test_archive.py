@@ -84,6 +84,8 @@ CHANGES: dict[str, tuple[Callable[[Arrays], Arrays], str]] = {
     "no about": (lambda a: {k: v for k, v in a.items() if k != "about"}, "0 arrays 'about'"),
     "about a number": (given(about=lambda _: np.array(3.0)), "other content"),
     "about a list": (given(about=lambda _: np.array("[1]")), "other content"),
+    "about in a row": (given(about=lambda text: text.reshape(1)), "other content"),
+    "about in two rows": (given(about=lambda text: np.array([text, text])), "other content"),
     "about not JSON": (given(about=lambda _: np.array("{")), "damaged"),
     "about with NaN": (given(about=lambda _: np.array('{"kind": NaN}')), "it has NaN"),
     "about deep": (given(about=lambda _: np.array("[" * 200_000)), "damaged"),
@@ -121,6 +123,18 @@ def test_an_unchanged_copy_is_read(stored: Arrays, solution: kp.Solution, tmp_pa
     np.savez(tmp_path / "same.npz", **stored)
     again = kp.load_solution(tmp_path / "same.npz")
     assert np.array_equal(again(0.123).q, solution(0.123).q)
+
+
+def test_arrays_with_the_other_header_of_numpy_are_read(
+    stored: Arrays, solution: kp.Solution, tmp_path: Path
+) -> None:
+    """Version 2.0 has four bytes for the length of the header, not two."""
+    with zipfile.ZipFile(tmp_path / "new.npz", "w") as file:
+        for name, array in stored.items():
+            with file.open(f"{name}.npy", "w") as member:
+                np.lib.format.write_array(member, np.asarray(array), version=(2, 0))
+    again = kp.load_solution(tmp_path / "new.npz")
+    assert np.array_equal(again.q, solution.q) and np.array_equal(again.lam, solution.lam)
 
 
 def bomb(path: Path, stored: Arrays, name: str, shape: tuple[int, ...], compressed: bool) -> None:

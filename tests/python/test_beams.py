@@ -145,6 +145,29 @@ def test_a_torque_at_a_named_place_is_no_error(torque: float) -> None:
     assert beam.enough == 4
 
 
+def test_a_beam_of_a_run_is_that_of_its_states() -> None:
+    """Rows are instants; the error is the largest jump of all of them over the largest moment."""
+    m = clamped(elements=2, damping=1e-3, points={"P": "50 %"})
+    m.force("load", "rod.B", force=(3.0, -10.0))
+    sol = kp.dynamics(m, kp.assemble(m), t_end=0.02, output_step=0.005)
+    beam, states = sol.beam("rod"), [sol(float(t)).beam("rod") for t in sol.t]
+    for name in ("x", "y", "angle", "normal_force", "shear_force", "bending_moment", "stress"):
+        rows = np.array([getattr(one, name) for one in states])
+        assert rows.shape == (5, 10)
+        near = 1e-6 * np.abs(rows).max()
+        np.testing.assert_allclose(getattr(beam, name), rows, atol=near, err_msg=name)
+    np.testing.assert_allclose(beam.strain_energy, [one.strain_energy for one in states], rtol=1e-6)
+    assert states[0].strain_energy < 1e-12 < beam.strain_energy[-1]
+    m = clamped(elements=3, damping=1e-3)
+    m.force("load", "rod.B", force=(0.0, -10.0))
+    sol = kp.dynamics(m, kp.assemble(m), t_end=0.05, output_step=0.01)
+    beam, states = sol.beam("rod"), [sol(float(t)).beam("rod") for t in sol.t]
+    largest = [np.abs(one.bending_moment).max() for one in states]
+    jumps = [one.error * own for one, own in zip(states, largest, strict=True)]
+    assert beam.error == pytest.approx(max(jumps) / max(largest), rel=1e-4)
+    assert beam.error > 1e-4
+
+
 def test_lists_show_a_beam_as_one() -> None:
     m = clamped(points={"P": "25 %"})
     state = kp.assemble(m)

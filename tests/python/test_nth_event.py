@@ -58,6 +58,25 @@ def test_another_number_is_refused_with_what_it_must_be(stop: Any) -> None:
         kp.dynamics(m, state, t_end=1.0, events={"zero": kp.Event("block.x", stop=stop)})
 
 
+def test_an_entry_of_an_event_has_known_fields_only() -> None:
+    m, start, _ = oscillator(1.0, 1.0)
+    state = kp.assemble(m, set=start)
+    for entry, told in (
+        ({"condition": "block.x", "stopp": 2}, r"field of .*zero 'stopp'; did you mean 'stop'"),
+        ({"stop": 2}, r"zero: no condition"),
+        (3, r"zero: 3; must be a condition"),
+    ):
+        with pytest.raises(kp.ModelError, match=told):
+            kp.dynamics(m, state, t_end=1.0, events={"zero": entry})  # type: ignore[dict-item]
+    sol = kp.dynamics(
+        m,
+        state,
+        t_end=9.0,
+        events={"zero": {"condition": "block.x", "stop": 2}},  # type: ignore[dict-item]
+    )
+    assert float(sol.t[-1]) == pytest.approx(1.5 * math.pi / 2.0, rel=1e-5)
+
+
 @pytest.mark.parametrize("stop", ["0", "-2", "2.5", '"3"'])
 def test_a_file_with_another_number_is_refused(stop: str, tmp_path: Path) -> None:
     file = saved(tmp_path, kp.Event("block.x", stop=7))

@@ -31,6 +31,13 @@ def test_modes(size: float) -> None:
         assert repr(found) == f"<ModesResult: {words} at t = 0 s>"
         expected = sorted(np.sqrt(9.81 / ((k + 1) * size)) for k in range(count))
         np.testing.assert_allclose(sorted(found.omega), expected, rtol=1e-9)
+    # one period of the first shape: cosines of even phases; closing the pins adds the third power
+    shape = found.shape(0)
+    angles = np.array([[s[f"b{k}.angle"] for k in range(3)] for s in shape.states(6)])
+    moved = angles[:, np.abs(angles).max(axis=0).argmax()]
+    phases = np.arange(6) * np.pi / 3
+    np.testing.assert_allclose(moved, moved[0] * np.cos(phases), atol=abs(moved[0]) ** 3)
+    assert abs(moved[0]) > 1e-3
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -40,7 +47,16 @@ def test_rests(size: float) -> None:
     name = "<EquilibriumResult of 'tilted': "
     assert repr(kp.equilibrium(m, start)) == f"{name}stable>"
     upwards = kp.assemble(m, set={"rod.angle": 0.5 + np.pi / 2})
-    assert repr(kp.equilibrium(m, upwards)) == f"{name}not stable>"
+    upright = kp.equilibrium(m, upwards)
+    assert repr(upright) == f"{name}not stable>"
+    assert "not stable" in upright.report() and "stable" in kp.equilibrium(m, start).report()
+    held = kp.equilibrium(m, start, hold=["rod.angle"])
+    assert "held: no freedom is left" in held.report()
+    tree = m.tree()
+    tree["gravity"] = [0, 0]
+    loose = kp.Model.from_tree(tree)
+    nowhere = kp.equilibrium(loose, kp.assemble(loose, set={"rod.angle": 0.3}))
+    assert "indifferent: it can move without any force" in nowhere.report()
     for end, folds in ((0.5, 0), (1.5, 1)):
         path = kp.equilibrium(m, start, over="p", range=(0, end * most))
         assert repr(path) == f"{name}{len(path.values)} points over p, {folds} folds>"

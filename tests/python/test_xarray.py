@@ -5,6 +5,7 @@ import sys
 import kempe as kp
 import numpy as np
 import pytest
+from python.test_reaction_frames import door
 
 
 def solution() -> kp.Solution:
@@ -31,6 +32,26 @@ def test_a_data_set_has_the_columns_of_the_data_frame() -> None:
     with kp.units("deg"):
         assert sol.to_xarray()["rod.angle"].attrs["units"] == "deg"
         np.testing.assert_allclose(sol.to_xarray()["rod.angle"], np.degrees(sol["rod.angle"]))
+
+
+def test_columns_have_remarks_where_there_are_some() -> None:
+    """The slides of a door share its weight; forces over an angle contain what the motion has."""
+    pytest.importorskip("xarray", reason="the package xarray is missing")
+    sol, still = door(), solution()
+    over = kp.kinematics(still.model, still.initial, over="rod.angle", range=(0, 1), n=5)
+    for one, shared, is_over in ((sol, {"low", "high"}, False), (over, set(), True)):
+        frame, found = one.to_dataframe(), one.to_xarray()
+        choices, conditions = frame.attrs["choices"], frame.attrs["conditions"]
+        assert {name.split(".")[0] for name in choices} == shared
+        assert set(choices.values()) <= {"minimum norm"}
+        forces = {n for n, unit in frame.attrs["units"].items() if unit in ("N", "N*m")}
+        assert forces and set(conditions) == (forces if is_over else set())
+        assert all(conditions.values())
+        for name in found.data_vars:
+            told = found[name].attrs
+            assert told.get("choice") == choices.get(name)
+            assert told.get("condition") == conditions.get(name)
+            assert "" not in told.values()
 
 
 def test_the_time_can_be_the_index() -> None:

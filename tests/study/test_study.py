@@ -5,6 +5,8 @@ import json
 import re
 import time
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import kempe as kp
 import numpy as np
@@ -16,6 +18,7 @@ from kempe.plot import study_figures
 from kempe.plot.study_gaps import joint_gaps, magnification
 from kempe.sweeps.studies import Outcome, Variant
 from kempe.sweeps.studies.findings import growth
+from kempe.sweeps.studies.run import _diverged
 from matplotlib.axes import Axes
 
 ROOT = Path(__file__).parents[2]
@@ -334,6 +337,18 @@ def test_the_steps_of_an_analysis_are_no_outputs_of_a_study(four_bar_file: Path)
         assert one.solution is not None
         t = one.solution.t
         assert np.diff(t) == pytest.approx((t[-1] - t[0]) / 1500)
+
+
+def test_an_error_without_a_time_has_that_of_its_last_state() -> None:
+    way = Variant("step", 10, 200, "RK4", 1e-3)
+    reached: Any = SimpleNamespace(
+        t=np.array([0.0, 0.25]), statistics={"steps": 250, "evaluations": 1000, "seconds": 0.5}
+    )
+    for t, partial, expected in ((None, reached, 0.25), (0.3, reached, 0.3), (None, None, None)):
+        found = _diverged(way, partial, t, "it broke")
+        cost = (250, 1000, 0.5) if partial else (0, 0, 0.0)
+        assert (found.steps, found.evaluations, found.seconds) == cost
+        assert found.diverged_at == expected and found.reason == "it broke"
 
 
 def test_what_cannot_be_studied_is_refused(four_bar_file: Path) -> None:

@@ -37,6 +37,14 @@ def test_messages_become_reasons(message: str, expected: str) -> None:
     assert reason(message, "a.toml") == expected
 
 
+@pytest.mark.parametrize("count", [2, 17])
+def test_the_number_of_problems_is_no_reason(count: int) -> None:
+    problems = [f"field {k}: {k} problems with it" for k in range(count)]
+    assert reason("\n".join([f"a.toml: {count} problems", *problems]), "a.toml") == (
+        "; ".join(problems)
+    )
+
+
 def test_an_impossible_model_has_a_reason_of_one_line(case: kp.Case) -> None:
     found = kp.sweep(case, {"L2": [-1.0], "L3": [18.0, -2.0]}, ["pin.max"])
     first = "bodies.coupler.length: -1 m; must be > 0"

@@ -14,7 +14,7 @@ _ENTRY = re.compile(
     r"""(?P<key>"[^"]*"|'[^']*'|[\w.\- ]+?)\s*=\s*(?P<value>"(?:[^"\\]|\\.)*"|'[^']*'|[-+\w.]+)"""
 )
 #: A number with a unit, or times a constant, in a text.
-_UNIT = re.compile(r"\s*[-+]?[\d.]+(?:[eE][-+]?\d+)?(?P<unit>\s*\*\s*deg|\s*[^\W\d_].*)")
+_UNIT = re.compile(r"\s*[-+]?[\d.]+(?:[eE][-+]?\d+)?(?P<unit>\s*\*\s*deg|\s*[^\W\d_].*|\s*°)")
 
 
 def rewritten(text: str, values: Mapping[str, float]) -> str | None:
