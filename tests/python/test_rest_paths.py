@@ -123,3 +123,21 @@ def test_a_column_buckles_at_its_load(mass: float, size: float) -> None:
     told = re.fullmatch(r"crossing at P = (\S+): rod.angle = 90°", report[1])
     assert told and float(told[1]) == pytest.approx(most, rel=1e-6)
     assert re.fullmatch(r"\d+ points are stable", report[2])
+
+
+@pytest.mark.parametrize(("voltage", "resistance", "constant"), [(12.0, 2.0, 0.5), (-3.0, 0.1, 40)])
+def test_a_motor_at_rest_has_its_current(
+    voltage: float, resistance: float, constant: float
+) -> None:
+    """U/R flows, and its torque turns the rotor against a spring."""
+    m = kp.Model("motor")
+    m.ground.points(O=(0, 0))
+    m.body("rotor", mass=1, inertia=0.01, points={"O": (0, 0)})
+    m.revolute("shaft", "ground.O", "rotor.O")
+    m.torsion_spring("s", "ground", "rotor", stiffness=1e4)
+    electric = {"voltage": voltage, "resistance": resistance, "torque_constant": constant}
+    m.motor("motor", "rotor", inductance=0.1, **electric)
+    state = kp.equilibrium(m, kp.assemble(m, {"rotor.angle": 0})).state
+    current = voltage / resistance
+    assert state["motor.current"] == pytest.approx(current, rel=1e-9)
+    assert state["rotor.angle"] == pytest.approx(constant * current / 1e4, rel=1e-9)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from house.places import ROOT
 from kempe.cli import app
+from kempe.results.assembly_report import AssemblyReport, Mode
 from mobility.named import NAMED
 from redundant.pinned import PINNED
 
@@ -191,3 +192,27 @@ def test_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     out = capsys.readouterr().out
     assert "not set: crank.omega = 0 (at rest)" in out
     assert "warning: crank.angle = 70 looks like degrees" in out
+
+
+def test_many_dyads_are_told_in_part() -> None:
+    """Twenty are listed; of the others, the first twenty that are folded have their names."""
+    for count, folded in ((20, ()), (21, ()), (30, (22, 27)), (60, range(20, 41)), (9, (3,))):
+        modes = tuple(
+            Mode((f"a{k}", f"b{k}"), f"J{k}", ("A", "B"), "left", k in folded) for k in range(count)
+        )
+        report = AssemblyReport((), 0, modes, ())
+        lines = str(report).splitlines()
+        shown = [line for line in lines if " lies " in line]
+        assert shown == [
+            f"a{k} and b{k}: J{k} lies to the left of A → B, {'' if k in folded else 'un'}folded"
+            for k in range(min(count, 20))
+        ]
+        more = [line for line in lines if line.startswith("and ")]
+        names = [f"J{k}" for k in folded if k >= 20]
+        if count <= 20:
+            assert not more
+        elif not names:
+            assert more == [f"and {count - 20} more, none of them folded"]
+        else:
+            few = ", ".join(names[:20]) + ", …" * (len(names) > 20)
+            assert more == [f"and {count - 20} more, of which {len(names)} folded: {few}"]

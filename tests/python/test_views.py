@@ -231,3 +231,9 @@ def test_power_between_two_moving_bodies_is_force_by_rate_and_torque_by_rate() -
     assert state.force("s").power == pytest.approx(force * rate)
     torque = -(3.0 * -0.9 + 0.5 * -2.3)
     assert state.force("coil").power == pytest.approx(torque * -2.3)
+
+
+def test_points_are_named_or_have_their_place(solution: kp.Solution) -> None:
+    rocker = solution.body("rocker")
+    assert repr(rocker.point("C")) == "<point rocker.C>"
+    assert repr(rocker.at((0.5, -2))) == "<point rocker.(0.5, -2.0)>"

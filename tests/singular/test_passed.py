@@ -32,7 +32,10 @@ def in_line(of: Cranks, sol: kp.Solution) -> np.ndarray:
 @pytest.mark.parametrize("seed", SEEDS)
 def test_each_position_is_listed_with_its_time(seed: int, number: int) -> None:
     of, sol = driven(seed, number)
-    found = summary(sol)["singular"]
+    told = summary(sol)
+    found = told["singular"]
+    assert "singular" in sol.statistics  # listed once, with the joints
+    assert set(told["statistics"]) == set(sol.statistics) - {"singular"}
     assert [one["t"] for one in found] == pytest.approx(in_line(of, sol).tolist(), abs=1e-3)
     assert all({"A0", "B0"} <= set(one["joints"]) for one in found)
 
