@@ -1,5 +1,6 @@
 """Building a model in Python: accepted values, refused values and their messages."""
 
+import warnings
 from pathlib import Path
 
 import kempe as kp
@@ -49,6 +50,28 @@ def test_what_an_element_lacks_is_zero(place: tuple[float, float]) -> None:
 def test_an_element_that_is_no_table_is_refused(entry: object, kind: str) -> None:
     with pytest.raises(kp.ModelError, match=f"forces.f: {kind}; must be a table with fields"):
         kp.Model.from_tree({"forces": {"f": entry}}).compile()
+
+
+NEGATIVE = [(-2.5, 1), (4, -1e-3), (-1, -7), (0, 0), (3, 2)]
+
+
+@pytest.mark.parametrize(("stiffness", "damping"), NEGATIVE)
+def test_a_negative_stiffness_or_damping_is_doubted(stiffness: float, damping: float) -> None:
+    m = kp.Model("rod", parameters={"k": stiffness, "c": damping})
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass=1, length=1, ends=("O", "B"))
+    m.revolute("O", "ground.O", "rod.O")
+    m.torsion_spring("s", "ground", "rod", stiffness="k", damping=damping)
+    expected = set()
+    if damping < 0:
+        expected |= {f"forces.s.damping is negative, {damping:g}: it adds energy"}
+    if stiffness < 0:
+        expected |= {f"forces.s.stiffness is negative, {stiffness:g}: it pushes away from rest"}
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        m.compile()
+    texts = {str(one.message) for one in told if issubclass(one.category, kp.ModelWarning)}
+    assert texts == expected
 
 
 def test_the_repr_lists_the_elements(model: kp.Model) -> None:
