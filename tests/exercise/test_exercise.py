@@ -200,8 +200,9 @@ def test_the_command_prints_keys_of_variants() -> None:
 
 def test_results_of_other_variants_and_formats_are_refused() -> None:
     one = kp.Exercise(kp.load(CRANK), 4)
-    with pytest.raises(kp.ModelError, match="variant 5, not of 4"):
+    with pytest.raises(kp.ModelError, match="variant 5, not of 4") as caught:
         one.grade({"kempe_result": 1, "seed": 5})
+    assert caught.value.hint == "choose its variant with seed 5"
     with pytest.raises(kp.ModelError, match="not a result"):
         one.grade({})
     empty = {"kempe_result": 1, "seed": 4, "answers": {"nearest": {"given": "260 N"}}}
@@ -227,6 +228,7 @@ def rewritten(tmp_path: Path, *changes: tuple[str, str], more: str = "") -> kp.C
         ("", 0.0026),
         ("tolerance = 0.02", 0.0052),
         ('tolerance = "5 %"', 0.013),
+        ('tolerance = "12.5%"', 0.0325),
         ('tolerance = "30"', 0.03),
         ('tolerance = "2 cm"', 0.02),
         ('tolerance = "-3 mm"', 0.003),
@@ -304,6 +306,8 @@ def test_a_question_without_an_analysis_has_the_last_one(tmp_path: Path) -> None
         assert found["at"].value == pytest.approx(10.0 * math.pi * at)
         assert found["end"].value == pytest.approx(10.0 * math.pi * end)
         assert found["end"].unit == "rad"
+    own = rewritten(tmp_path, ("[exercise]\n", later), more=more.format(0.15))
+    assert kp.Exercise(own).questions["end"].value == pytest.approx(10.0 * math.pi * 0.2)
 
 
 @pytest.mark.parametrize(

@@ -198,3 +198,16 @@ def test_arguments_that_are_left_out_have_the_documented_values() -> None:
     pins = {"crank": "crank.O", "rod": "rod.B"}
     plain = design.transmission_angle(sol, "A").angle
     np.testing.assert_allclose(design.transmission_angle(sol, "A", lines=pins).angle, plain)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_ratios_are_those_of_the_rates_of_all_coordinates(
+    scale: tuple[float, float, float],
+) -> None:
+    sol = turned(*scale)
+    rates = {"x": "vx", "y": "vy", "angle": "omega", "vx": "vx", "vy": "vy", "omega": "omega"}
+    for name, rate in rates.items():
+        found = design.velocity_ratio(sol, f"rod.{name}", "crank.angle")
+        np.testing.assert_allclose(found, sol[f"rod.{rate}"] / sol["crank.omega"], rtol=1e-12)
+    found = design.velocity_ratio(sol, "S.displacement", "O.angle")
+    np.testing.assert_allclose(found, sol["piston.vx"] / sol["crank.omega"], rtol=1e-9)
