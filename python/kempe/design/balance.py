@@ -112,9 +112,6 @@ def balance(
         raise unknown("quantity to balance", of, _BALANCED)
     own = _Measure(case, of, about)
     pivots = _pivots(case)
-    if not pivots:
-        hint = "counterweights turn with bodies that have one"
-        raise ModelError("no body has a revolute joint to ground", hint=hint)
     for name in on or ():
         if name not in pivots:
             raise unknown("body with a revolute joint to ground", name, pivots)
@@ -260,7 +257,11 @@ def _radius(name: str, given: float | Mapping[str, float] | None, arms: Sequence
 
 
 def _pivots(case: Case) -> dict[str, tuple[str, str]]:
-    """The joint with ground and the point of each body that turns about a fixed pivot."""
+    """The joint with ground and the point of each body that turns about a fixed pivot.
+
+    Raises:
+        ModelError: there is none.
+    """
     found = dict[str, tuple[str, str]]()
     joints = case.model.compile().constraints
     for joint, entry in case.model.tree().get("joints", {}).items():
@@ -269,6 +270,9 @@ def _pivots(case: Case) -> dict[str, tuple[str, str]]:
             for (body, point), (other, _) in (ends, ends[::-1]):
                 if other == "ground" and body != "ground":
                     found.setdefault(body, (joint, point))
+    if not found:
+        hint = "counterweights turn with bodies that have one"
+        raise ModelError("no body has a revolute joint to ground", hint=hint)
     return found
 
 
