@@ -10,6 +10,7 @@ from design_problems.test_faults import dyad
 from kempe.sweeps.problems.asked import _NAMES, problem_of
 from kempe.sweeps.problems.formulas import read_limit
 from kempe.sweeps.problems.optimum import _distinct
+from kempe.sweeps.problems.path import Path
 from kempe.sweeps.problems.rewritten import rewritten
 
 
@@ -35,6 +36,15 @@ def test_candidates_differ_in_their_place_or_in_their_objective(scale: float, si
     problem = SimpleNamespace(sign=sign, shares=lambda row: row)
     kept = _distinct(problem, [runs[k] for k in (3, 2, 1, 0)])  # type: ignore[arg-type, list-item]
     assert [one.name for one in kept] == ["a", "d", "c"]  # type: ignore[attr-defined]
+
+
+def test_a_path_is_that_of_its_tree() -> None:
+    points = [[0.5, 1.0], [0.25, -2.0]]
+    for angles in (None, [0.1, -0.3]):
+        tree = Path(points, "rod.P", angles).tree()
+        own = {} if angles is None else {"angles": angles}
+        assert tree == {"points": points, "of": "rod.P", **own}
+        assert Path.read(tree).tree() == tree
 
 
 @pytest.mark.parametrize("unit", ["µm", "°", "mm", " kN", "*deg"])

@@ -55,6 +55,23 @@ def test_two_recordings_with_shifts_of_their_own() -> None:
     assert dict(fit.values) == pytest.approx({"k": 1.44, "t0": 0.3, "t1": 2.1}, rel=1e-6)
 
 
+def test_a_parameter_of_the_second_model_only() -> None:
+    """x = L/k + (1 - L/k) cos √k t in the second one, with a load L."""
+    first, second = oscillator(1, 1, 1), oscillator(1, 1, 1)
+    tree = second.model.tree()
+    tree["parameters"]["load"] = 0.1
+    tree["forces"]["pull"] = {"type": "force", "j": "b.P", "force": ["load", 0]}
+    start = {"set": {"b.x": 1, "b.vx": 0}}
+    second = kp.Case(kp.Model.from_tree(tree), start, [kp.Dynamics(t_end=7)])
+    t, rate = np.linspace(0, 6, 40), np.sqrt(1.44)
+    pairs = []
+    for case, rest in ((first, 0.0), (second, 0.3 / 1.44)):
+        table = {"t": t, "x": rest + (1 - rest) * np.cos(rate * t)}
+        pairs.append((case, kp.Data(table, columns={"b.x": "x"})))
+    fit = kp.fit(first, pairs, {"k": (0.5, 4), "load": (0, 1)})
+    assert dict(fit.values) == pytest.approx({"k": 1.44, "load": 0.3}, rel=1e-5)
+
+
 def test_frequencies_of_modes() -> None:
     """f = √(k/m) / 2π with two masses; repeated measurements; the errors in closed form."""
     m = oscillator(2, 10, 0.1).model

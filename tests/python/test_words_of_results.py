@@ -105,3 +105,29 @@ def test_mobility() -> None:
     found = kp.mobility(m, kp.assemble(m))
     assert len(found.redundant) == 2
     assert repr(found) == "<MobilityResult: 1 degree of freedom, 2 redundant>"
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_mobility_with_drivers(count: int) -> None:
+    m, _ = pendulums(3)
+    for k in range(count):
+        m.coordinate_driver(f"motor{k}", f"b{k}.angle", value="0.1*t")
+    free = f"{3 - count} degree{'s' * (3 - count != 1)} of freedom"
+    counts = f"9 coordinates - {6 + count} equations = {3 - count} by Grübler"
+    drivers = f"3 without its driver{'s' * (count != 1)}"
+    told = kp.mobility(m, kp.assemble(m)).report()
+    assert told == [f"{counts}; rank {6 + count}: {free}, {drivers}"]
+
+
+@pytest.mark.parametrize("count", [19, 20, 21, 23])
+def test_twenty_modes_are_listed(count: int) -> None:
+    m, start = pendulums(count)
+    told = kp.modes(m, start).report()
+    omega = np.sqrt(9.81 / np.arange(count, 0, -1.0))
+    listed = [
+        f"mode {k + 1}: {w / (2 * np.pi):.6g} Hz, ω = {w:.6g} rad/s, damping ratio 0"
+        for k, w in enumerate(omega[:20])
+    ]
+    more = [f"and {count - 20} more modes"] if count > 20 else []
+    assert told[0].startswith(f"{count} independent coordinates: ")
+    assert told[1:] == [*listed, *more]
