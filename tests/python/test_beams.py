@@ -145,9 +145,10 @@ def test_a_torque_at_a_named_place_is_no_error(torque: float) -> None:
     assert beam.enough == 4
 
 
-def test_a_beam_of_a_run_is_that_of_its_states() -> None:
+@pytest.mark.parametrize("locked", [{}, {"shear": False}, {"shear": False, "inextensible": True}])
+def test_a_beam_of_a_run_is_that_of_its_states(locked: dict[str, bool]) -> None:
     """Rows are instants; the error is the largest jump of all of them over the largest moment."""
-    m = clamped(elements=2, damping=1e-3, points={"P": "50 %"})
+    m = clamped(elements=2, damping=1e-3, points={"P": "50 %"}, **locked)
     m.force("load", "rod.B", force=(3.0, -10.0))
     sol = kp.dynamics(m, kp.assemble(m), t_end=0.02, output_step=0.005)
     beam, states = sol.beam("rod"), [sol(float(t)).beam("rod") for t in sol.t]
@@ -158,7 +159,7 @@ def test_a_beam_of_a_run_is_that_of_its_states() -> None:
         np.testing.assert_allclose(getattr(beam, name), rows, atol=near, err_msg=name)
     np.testing.assert_allclose(beam.strain_energy, [one.strain_energy for one in states], rtol=1e-6)
     assert states[0].strain_energy < 1e-12 < beam.strain_energy[-1]
-    m = clamped(elements=3, damping=1e-3)
+    m = clamped(elements=3, damping=1e-3, **locked)
     m.force("load", "rod.B", force=(0.0, -10.0))
     sol = kp.dynamics(m, kp.assemble(m), t_end=0.05, output_step=0.01)
     beam, states = sol.beam("rod"), [sol(float(t)).beam("rod") for t in sol.t]

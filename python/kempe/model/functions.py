@@ -364,7 +364,7 @@ class Functions:
 
 def _found(tree: Mapping[str, Any]) -> Iterator[tuple[str, str, int | None, FunctionLaw]]:
     for name, entry in tree["forces"].items():
-        for field, value in entry.items() if isinstance(entry, Mapping) else ():
+        for field, value in entry.items():
             if isinstance(value, FunctionLaw):
                 yield name, field, None, value
             for k, part in enumerate(value) if isinstance(value, list | tuple) else ():

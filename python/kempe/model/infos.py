@@ -205,9 +205,9 @@ def _body_of(values: dict[str, Any]) -> BodyInfo:
     return BodyInfo(**{**values, **named})
 
 
-def vector(two: list[float] | None) -> Vector:
-    """Two numbers; zeros for None."""
-    x, y = two or (0.0, 0.0)
+def vector(two: list[float]) -> Vector:
+    """Two numbers."""
+    x, y = two
     return float(x), float(y)
 
 
