@@ -51,7 +51,7 @@ def cam_remarks(cam: Any) -> list[str]:
     """What is wrong or doubtful, each with a remedy."""
 
 def cam_case(cam: Any) -> str:
-    """The case, as JSON."""
+    """The case, as TOML."""
 
 def cam_walls(cam: Any, angles: _F, cutter: float | None) -> list[tuple[str, _Z]]:
     """The profiles at angles by layer, and with a cutter the paths of its centre."""

@@ -280,7 +280,7 @@ pub fn cam_remarks(cam: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
     guard("cam_remarks", || found(read(cam)?.remarks()))
 }
 
-/// The case, as JSON.
+/// The case, as TOML.
 #[pyfunction]
 #[pyo3(signature = (cam))]
 pub fn cam_case(cam: &Bound<'_, PyAny>) -> PyResult<String> {

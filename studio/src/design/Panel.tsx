@@ -8,6 +8,8 @@ import { Button, Check, Facts, Section } from "../panels/parts";
 import { change } from "../store/document";
 import { units } from "../store/state";
 import { texts } from "../texts";
+import { CamPanel } from "./CamPanel";
+import { cams } from "./cam";
 import { addBeside } from "./handler";
 import { take } from "./take";
 import {
@@ -39,12 +41,13 @@ export function DesignPanel() {
   const words = texts.design;
   const begun = poses.value.length > 0;
   const told = draws.value ? (begun ? words.hintPath : words.beginPath) : begun ? words.hint : words.begin;
-  const kind = (of: "poses" | "points") => (
+  const kind = (of: "poses" | "points" | "cam") => (
     <Button
       label={words.kinds[of]}
-      pressed={list.value === of}
+      pressed={of === "cam" ? cams.value : !cams.value && list.value === of}
       onClick={() => {
-        draws.value = of === "points";
+        cams.value = of === "cam";
+        if (of !== "cam") draws.value = of === "points";
       }}
       id={`by-${of}`}
     />
@@ -54,8 +57,17 @@ export function DesignPanel() {
       <div class="buttons">
         {kind("poses")}
         {kind("points")}
+        {kind("cam")}
       </div>
-      <p class="doc">{told}</p>
+      <p class="doc">{cams.value ? texts.cam.begin : told}</p>
+      {cams.value ? <CamPanel /> : <Task />}
+    </div>
+  );
+}
+
+function Task() {
+  return (
+    <>
       {fault.value ? (
         <p class="doc wrong" role="alert">
           {fault.value}
@@ -64,7 +76,7 @@ export function DesignPanel() {
       <Poses />
       {section.value ? <Limits /> : null}
       {solved.value ? <Candidates /> : null}
-    </div>
+    </>
   );
 }
 

@@ -1,4 +1,4 @@
-//! The case of a cam with its follower, as JSON.
+//! The case of a cam with its follower, as TOML.
 
 use super::curves::{curve, Cam, Closure, Layer};
 use super::follower::End;
@@ -10,38 +10,104 @@ use std::f64::consts::{PI, TAU};
 /// Density × thickness of the cam, a disc of steel of the base radius, 10 mm thick, kg/m².
 const SURFACE: f64 = 78.5;
 /// The case of every cam, with a turn of 360 outputs.
-const CASE: &str = r#"{"kempe":1,"title":"cam, <way> <kind> follower","gravity":[0.0,<down>],
-"parameters":{"speed":<speed>,"mass":<mass>,"stiffness":<stiffness>,"force":<force>},
-"bodies":{"ground":{"points":{"O":[0.0,0.0],<ground>}},
-"cam":{"type":"body","points":{"O":[0.0,0.0]},"curves":{<curves>},
-"shapes":[{"type":"disc","radius":<radius>,"mass":<heavy>}]},"follower":<body>},
-"joints":{<joint>,"shaft":{"type":"revolute","i":"ground.O","j":"cam.O"},"contact":<contact>},
-"drivers":{"drive":{"type":"coordinate_driver","coordinate":"cam.angle","value":"<law>"}},<more>
-"start":{"guess":{"cam.angle":0.0,<guess>,"contact.u":0.0}},
-"analyses":{"turn":{"type":"inverse_dynamics","t_end":"2*pi/speed","output_step":"2*pi/speed/360"}}}"#;
+const CASE: &str = r#"kempe = 1
+title = "cam, <way> <kind> follower"
+gravity = [0, <down>]
+
+[parameters]
+speed = <speed>
+mass = <mass>
+stiffness = <stiffness>
+force = <force>
+
+[bodies.ground]
+points = { O = [0, 0], <ground> }
+
+[bodies.cam]
+type = "body"
+points = { O = [0, 0] }
+curves = { <curves> }
+shapes = [{ type = "disc", radius = <radius>, mass = <heavy> }]
+
+[bodies.follower]
+<body>
+
+[joints.<joint>
+
+[joints.shaft]
+type = "revolute"
+i = "ground.O"
+j = "cam.O"
+
+[joints.contact]
+<contact>
+
+[drivers.drive]
+type = "coordinate_driver"
+coordinate = "cam.angle"
+value = "<law>"
+<more>
+[start]
+guess = { "cam.angle" = 0, <guess>, "contact.u" = 0 }
+
+[analyses.turn]
+type = "inverse_dynamics"
+t_end = "2*pi/speed"
+output_step = "2*pi/speed/360"
+"#;
 /// A follower in a vertical guide: points of ground, body, joint, guesses, and a spring above.
 const TRANSLATING: [&str; 5] = [
-    r#""G":[<x>,0.0],"S":[<x>,<above>]"#,
-    r#"{"type":"body","mass":"mass","inertia":0.0,"points":{"P":[0.0,0.0],"T":[0.0,<top>]}}"#,
-    r#""guide":{"type":"translational","i":"ground.G","j":"follower.P","axes":["90 deg","90 deg"]}"#,
-    r#""follower.x":<x>,"follower.y":<low>,"follower.angle":0.0"#,
-    r#"{"type":"spring_damper","i":"ground.S","j":"follower.T","stiffness":"stiffness","free_length":<free>,
-"preload":"-force"}"#,
+    "G = [<x>, 0], S = [<x>, <above>]",
+    "type = \"body\"\nmass = \"mass\"\ninertia = 0\npoints = { P = [0, 0], T = [0, <top>] }",
+    r#"guide]
+type = "translational"
+i = "ground.G"
+j = "follower.P"
+axes = ["90 deg", "90 deg"]"#,
+    r#""follower.x" = <x>, "follower.y" = <low>, "follower.angle" = 0"#,
+    r#"
+[forces.spring]
+type = "spring_damper"
+i = "ground.S"
+j = "follower.T"
+stiffness = "stiffness"
+free_length = <free>
+preload = "-force"
+"#,
 ];
 /// A bar on a pivot with a torsion spring, in the same order.
 const OSCILLATING: [&str; 5] = [
-    r#""M":[<x>,<y>]"#,
-    r#"{"type":"bar","mass":"mass","length":<length>,"ends":["M","P"],"points":{<points>}}"#,
-    r#""pivot":{"type":"revolute","i":"ground.M","j":"follower.M"}"#,
-    r#""follower.x":<middle>,"follower.y":<height>,"follower.angle":<angle>"#,
-    r#"{"type":"torsion_spring","i":"ground","j":"follower","stiffness":"stiffness","free_angle":<angle>,
-"preload":"<preload>"}"#,
+    "M = [<x>, <y>]",
+    r#"type = "bar"
+mass = "mass"
+length = <length>
+ends = ["M", "P"]<points>"#,
+    r#"pivot]
+type = "revolute"
+i = "ground.M"
+j = "follower.M""#,
+    r#""follower.x" = <middle>, "follower.y" = <height>, "follower.angle" = <angle>"#,
+    r#"
+[forces.spring]
+type = "torsion_spring"
+i = "ground"
+j = "follower"
+stiffness = "stiffness"
+free_angle = <angle>
+preload = "<preload>"
+"#,
 ];
 /// The joints of faces, of rollers on one side, and of followers that a cam pushes and pulls.
-const FACE: &str = r#"{"type":"flat_on_curve","i":"follower.<point>","curve":"cam.rim"}"#;
-const ROLLER: &str =
-    r#"{"type":"roller_on_curve","i":"follower.P","curve":"cam.rim","radius":<roller><side>}"#;
-const RAIL: &str = r#"{"type":"point_on_curve","i":"follower.P","curve":"cam.<rail>"}"#;
+const FACE: &str = r#"type = "flat_on_curve"
+i = "follower.<point>"
+curve = "cam.rim""#;
+const ROLLER: &str = r#"type = "roller_on_curve"
+i = "follower.P"
+curve = "cam.rim"
+radius = <roller><side>"#;
+const RAIL: &str = r#"type = "point_on_curve"
+i = "follower.P"
+curve = "cam.<rail>""#;
 /// The force along the motion of an oscillating follower.
 const ALONG: &str = "contact.fx*sin(follower.angle) - contact.fy*cos(follower.angle)";
 
@@ -56,10 +122,7 @@ impl Cam {
         let (of, drive) = (&self.follower, &self.drive);
         let held = self.held();
         let [ground, body, joint, guess, spring] = held.each_ref().map(String::as_str);
-        let forces = match drive.spring {
-            [0.0, 0.0] => String::new(),
-            _ => [r#""forces":{"spring":"#, spring, "},"].concat(),
-        };
+        let forces = if drive.spring == [0.0; 2] { "" } else { spring };
         let (contact, measures) = self.contact();
         let texts = [
             ("way", if of.arm.is_some() { "oscillating" } else { "translating" }),
@@ -70,7 +133,7 @@ impl Cam {
             ("joint", joint),
             ("contact", &contact),
             ("law", if self.clockwise { "-speed*t" } else { "speed*t" }),
-            ("more", &(forces + &measures)),
+            ("more", &[forces, &measures].concat()),
             ("guess", guess),
         ];
         let numbers = [
@@ -98,16 +161,16 @@ impl Cam {
             found.push(("pitch", curve(&self.over(&angles, false)?, |of| of.pitch)));
         }
         let through = |(layer, places): &Layer| {
-            let points = places.iter().map(|z| format!("[{:?},{:?}]", z.re, z.im));
-            let points = points.collect::<Vec<_>>().join(",");
+            let points = places.iter().map(|z| format!("[{:?}, {:?}]", z.re, z.im));
+            let points = points.collect::<Vec<_>>().join(", ");
             let name = match *layer {
                 "cam" => "rim",
                 "conjugate" => "second",
                 name => name,
             };
-            format!(r#""{name}":{{"points":[{points}],"periodic":true}}"#)
+            format!("{name} = {{ points = [{points}], periodic = true }}")
         };
-        Ok(found.iter().map(through).collect::<Vec<_>>().join(","))
+        Ok(found.iter().map(through).collect::<Vec<_>>().join(", "))
     }
 
     /// Points of ground, the body of the follower, its joint, guesses, and its spring.
@@ -132,7 +195,7 @@ impl Cam {
         angle = (angle + PI).rem_euclid(TAU) - PI;
         let middle = pivot + scaled(turn(angle), arm / 2.0);
         let texts = [
-            ("points", if of.kind == End::Flat { r#""F":[0.0,<face>]"# } else { "" }),
+            ("points", if of.kind == End::Flat { "\npoints = { F = [0, <face>] }" } else { "" }),
             ("preload", if sense > 0.0 { "force" } else { "-force" }),
         ];
         let numbers = [
@@ -158,7 +221,7 @@ impl Cam {
         };
         let texts = [
             ("point", if swings { "F" } else { "P" }),
-            ("side", if self.clockwise { "" } else { r#","side":"left""# }),
+            ("side", if self.clockwise { "" } else { "\nside = \"left\"" }),
             ("rail", if self.rolls() { "pitch" } else { "rim" }),
         ];
         let joint = filled(one_sided.unwrap_or(RAIL), &texts, &[("roller", of.roller)]);
@@ -168,7 +231,7 @@ impl Cam {
             true => ALONG.into(),
             false => ["-(", ALONG, ")"].concat(),
         };
-        (joint, [r#""measures":{"press":""#, &press, r#""},"#].concat())
+        (joint, ["\n[measures]\npress = \"", &press, "\"\n"].concat())
     }
 }
 

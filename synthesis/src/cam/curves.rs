@@ -206,6 +206,11 @@ impl Cam {
         Ok(found)
     }
 
+    /// Radius of the bore for the shaft in drawings, m.
+    pub fn bore(&self) -> f64 {
+        self.follower.base / 5.0
+    }
+
     /// Whether it is a roller on a pitch curve.
     pub(super) fn rolls(&self) -> bool {
         self.follower.kind == End::Roller

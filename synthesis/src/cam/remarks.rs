@@ -20,7 +20,6 @@ impl Cam {
     /// # Errors
     /// A flat face turns as fast as the cam.
     pub fn remarks(&self) -> Result<Vec<String>, Refused> {
-        let (of, unit) = (&self.follower, self.programme.unit());
         let mut found = Vec::new();
         let undercut = self.undercut()?;
         if !undercut.is_empty() {
@@ -38,6 +37,17 @@ impl Cam {
                  least_base_radius"
             ));
         }
+        found.extend(self.doubts()?);
+        Ok(found)
+    }
+
+    /// The remarks without those on undercut and pressure angle.
+    ///
+    /// # Errors
+    /// A flat face turns as fast as the cam.
+    pub fn doubts(&self) -> Result<Vec<String>, Refused> {
+        let (of, unit) = (&self.follower, self.programme.unit());
+        let mut found = Vec::new();
         if of.roller > of.base {
             let [roller, base] = [of.roller, of.base].map(|x| short(x, 6));
             found.push(format!(

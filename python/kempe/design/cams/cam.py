@@ -73,7 +73,7 @@ class Cam(CamCurves):
         """
         from kempe.case import parsed
 
-        return parsed(_core.cam_case(self), "json", None)
+        return parsed(_core.cam_case(self), "toml", None)
 
     def write_dxf(
         self, path: Path | str, *, cutter_radius: Number | None = None, unit: str = "mm"
