@@ -1,6 +1,6 @@
 // All English texts of the studio and its worker, with designTexts.ts, drawingTexts.ts, fileTexts.ts and playerTexts.ts. Names of types come from the catalogue.
 import { coreTexts } from "./coreTexts";
-import { cam, design, exercise, improve, slopes } from "./designTexts";
+import { design, exercise, improve, slopes } from "./designTexts";
 import { atPlace, edit, labels, machines, place, stems } from "./drawingTexts";
 import { files } from "./fileTexts";
 import { ARROWS_ON, forces, ON_ALL } from "./playerTexts";
@@ -106,7 +106,6 @@ export const texts = {
   improve,
   slopes,
   exercise,
-  cam,
   design,
   measures: {
     title: "Measures",
@@ -361,7 +360,7 @@ export const texts = {
       move: "Drag the mechanism; arrow keys push the selected body.",
       live: "Hold a body with the mouse, or press the arrow keys, to pull at it; space pauses.",
       read: "The slider below the drawing shows any time of the run; curves follow.",
-      design: "Click two to five places that the coupler must take, draw the path that it must follow, or shape a cam.",
+      design: "Click two to five places of the coupler, draw the path that it must follow, or shape a cam.",
       two: "Type digits after the first click for an exact length; begin at a point to pin the bar there.",
       many: "Click all points of the body; enter or a double click finishes it.",
       one: "Click where the mass is; on a point it is pinned there.",

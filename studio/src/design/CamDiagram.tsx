@@ -1,10 +1,10 @@
 // The lift of a cam with its speed and acceleration over the angle; the knots between segments can be dragged.
 import { useRef, useState } from "preact/hooks";
 import type { CamFound } from "../core/protocol";
+import { cam as camTexts } from "../designTexts";
 import { displayed } from "../draw/display";
 import { besideUnit, minus, significant } from "../draw/numbers";
 import { units } from "../store/state";
-import { texts } from "../texts";
 import { found, segments, setSegments, sizes } from "./cam";
 import { dragged, ends, levels, type Segment } from "./segments";
 
@@ -48,7 +48,7 @@ export function CamDiagram() {
       class="cam-diagram"
       viewBox={`0 0 ${WIDE} ${3 * (HIGH + GAP) + 4}`}
       role="group"
-      aria-label={texts.cam.diagram}
+      aria-label={camTexts.diagram}
       onPointerMove={follow}
       onPointerUp={() => setHeld(null)}
       onPointerCancel={() => setHeld(null)}
@@ -89,7 +89,7 @@ function Strip({ k, of, values }: { k: number; of: CamFound; values: number[] })
       <line class="grid" x1={0} x2={WIDE} y1={zero} y2={zero} />
       <polyline class="curve" points={line.join(" ")} />
       <text x={2} y={GAP + k * (HIGH + GAP) - 5}>
-        {texts.cam.strips[k]}: {texts.cam.upTo} {besideUnit(minus(significant(largest * factor)), unit)}
+        {camTexts.strips[k]}: {camTexts.upTo} {besideUnit(minus(significant(largest * factor)), unit)}
       </text>
     </>
   );
@@ -116,7 +116,7 @@ function Knot({ k, x, y, hold, push }: KnotProps) {
       id={`knot-${k + 1}`}
       role="slider"
       tabindex={0}
-      aria-label={texts.cam.knot(k + 1)}
+      aria-label={camTexts.knot(k + 1)}
       aria-valuemin={0}
       aria-valuemax={WIDE}
       aria-valuenow={Math.round(x)}

@@ -1,4 +1,5 @@
 // The panel of a cam: its programme, the diagram of the lift, kinds and sizes, what the core finds, and what to do with it.
+import { cam as camTexts } from "../designTexts";
 import { displayed } from "../draw/display";
 import { besideUnit, minus, significant } from "../draw/numbers";
 import { enter } from "../modes/modes";
@@ -29,7 +30,7 @@ import { LAWS, type Segment, WAYS, type Way } from "./segments";
 const RADIANS = Math.PI / 180;
 
 export function CamPanel() {
-  const words = texts.cam;
+  const words = camTexts;
   const wrong = lack.value ? words.lack(lack.value) : fault.value;
   return (
     <>
@@ -47,7 +48,7 @@ export function CamPanel() {
 }
 
 function Programme() {
-  const words = texts.cam;
+  const words = camTexts;
   const all = segments.value;
   const set = (k: number, next: Partial<Segment>) =>
     setSegments(all.map((one, j) => (j === k ? { ...one, ...next } : one)));
@@ -108,7 +109,7 @@ function defaultHeight(): number {
 
 /** The change of the lift; empty for a return to no lift. */
 function Height({ k, one, set }: { k: number; one: Segment; set(height: number | null): void }) {
-  const words = texts.cam;
+  const words = camTexts;
   const swings = sizes.value.motion === "oscillating";
   return (
     <Amount
@@ -187,7 +188,7 @@ function Amount({ label, id, si, unit, empty, keep, clear }: AmountProps) {
 type Named = { [K in keyof Sizes]: Sizes[K] extends number ? K : never }[keyof Sizes];
 
 function Size({ name, unit }: { name: Named; unit: string }) {
-  const label = texts.cam.sizes[name];
+  const label = camTexts.sizes[name];
   return (
     <div class="field">
       <label for={`cam-${name}`}>{label}</label>
@@ -203,7 +204,7 @@ function Size({ name, unit }: { name: Named; unit: string }) {
 }
 
 function Shape() {
-  const words = texts.cam;
+  const words = camTexts;
   const { follower, motion, closure, direction } = sizes.value;
   const swings = motion === "oscillating";
   const closures = CLOSURES.filter((one) => one !== "groove" || follower === "roller");
@@ -256,13 +257,13 @@ function Shape() {
 
 /** A number in the unit of the display, and this unit. */
 function told(value: number | null, of: string, digits?: number): string {
-  if (value === null) return texts.cam.infinite;
+  if (value === null) return camTexts.infinite;
   const { factor, unit } = displayed(of, units.value);
   return besideUnit(minus(significant(value * factor, digits)), unit);
 }
 
 function Result() {
-  const words = texts.cam;
+  const words = camTexts;
   const of = found.value!;
   const { largest, at, recommended } = of.pressure_angle;
   const { least, at: where } = of.radius_of_curvature;
@@ -318,11 +319,11 @@ function Result() {
 
 /** Changes that remove an undercut or a steep pressure angle. */
 function Remedies({ steep }: { steep: boolean }) {
-  const words = texts.cam;
+  const words = camTexts;
   const { remedies, least_base: base, undercut } = found.value!;
   if (!remedies && !steep) return null;
   return (
-    <div class="buttons">
+    <div class="remedies">
       {remedies?.base ? (
         <Button
           label={words.larger(told(remedies.base, "m", 4))}

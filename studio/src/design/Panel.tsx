@@ -1,5 +1,6 @@
 // The panel of design mode: the poses, the limits, and the candidates with their defects.
 import type { Candidate, Triple } from "../core/protocol";
+import { cam as camTexts } from "../designTexts";
 import { displayed } from "../draw/display";
 import { besideUnit, minus, significant } from "../draw/numbers";
 import { typed } from "../edit/values";
@@ -59,7 +60,7 @@ export function DesignPanel() {
         {kind("points")}
         {kind("cam")}
       </div>
-      <p class="doc">{cams.value ? texts.cam.begin : told}</p>
+      <p class="doc">{cams.value ? camTexts.begin : told}</p>
       {cams.value ? <CamPanel /> : <Task />}
     </div>
   );
