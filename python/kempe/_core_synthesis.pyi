@@ -5,6 +5,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from kempe._core_cams import *  # noqa: F403
+
 _F = NDArray[np.float64]
 _Place = tuple[float, float]
 _Dyads = list[list[float]]

@@ -360,7 +360,7 @@ export const texts = {
       move: "Drag the mechanism; arrow keys push the selected body.",
       live: "Hold a body with the mouse, or press the arrow keys, to pull at it; space pauses.",
       read: "The slider below the drawing shows any time of the run; curves follow.",
-      design: "Click two to five places that the coupler must take, or draw the path that it must follow.",
+      design: "Click two to five places of the coupler, draw the path that it must follow, or shape a cam.",
       two: "Type digits after the first click for an exact length; begin at a point to pin the bar there.",
       many: "Click all points of the body; enter or a double click finishes it.",
       one: "Click where the mass is; on a point it is pinned there.",

@@ -1,7 +1,8 @@
-//! Numerics of the synthesis of linkages, and the search for their best numbers.
+//! Numerics of the synthesis of linkages and cams, and the search for their best numbers.
 //!
 //! | module | concept |
 //! |---|---|
+//! | `cam` | profiles of cams from programmes of their followers |
 //! | `conditions` | the linear conditions of poses on dyads, their solutions and samples |
 //! | `defects` | circuits, branches, dead points and order of a linkage at the positions of its task |
 //! | `descent` | the best point between bounds and within limits, with exact slopes |
@@ -19,6 +20,7 @@
 //! | `ranked` | candidates, best first |
 //! | `wanted` | positions of a coupler, and the four-bars near them |
 
+pub mod cam;
 mod conditions;
 mod defects;
 mod descent;

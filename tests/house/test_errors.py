@@ -23,6 +23,7 @@ CLASSES = [
 
 #: A call of each guarded entry point. The panic occurs before the arguments are used, so only their
 #: types matter.
+TURN = 2.0 * np.pi
 CASE = _core.Case((ROOT / "examples/four_bar.toml").read_text("utf-8"), "toml", None)
 MODEL = CASE.model("{}")
 T, Q, V, Z, _ = _core.assemble(MODEL, '{"crank.angle": "70*deg"}', "{}", 0.0, None, None, None)
@@ -35,6 +36,9 @@ RECORD = _core.run_analysis(MODEL, OPTIONS, AT, [], None)
 STEPPED = _core.SteppedRun(MODEL, OPTIONS, AT, [])
 RUN = RECORD.run
 assert RUN is not None
+CAM = kempe.design.cam(
+    "knife", [("rise", 3, 1, "cycloidal"), ("return", TURN - 3, "poly345")], base_radius=1
+)
 
 CALLS: dict[str, Callable[[], object]] = {
     "version": _core.version,
@@ -78,6 +82,18 @@ CALLS: dict[str, Callable[[], object]] = {
     "nine_point_four_bars": lambda: _core.nine_point_four_bars([], b"", None),
     "near_poses": lambda: _core.near_poses([(0.0, 0.0)], [0.0], (None, None), np.zeros((0, 8))),
     "fit_pairs": lambda: _core.fit_pairs([], 1.0, [], [], [], 1),
+    "cam_laws": _core.cam_laws,
+    "cam_programme": lambda: _core.cam_programme([], False),
+    "cam_lift": lambda: _core.cam_lift(CAM.programme, TIMES, 0),
+    "cam_sampled": lambda: _core.cam_sampled(CAM.programme, 1.0),
+    "cam_check": lambda: _core.cam_check(CAM),
+    "cam_angles": lambda: _core.cam_angles(CAM),
+    "cam_shape": lambda: _core.cam_shape(CAM, TIMES, False),
+    "cam_limits": lambda: _core.cam_limits(CAM),
+    "cam_least_base": lambda: _core.cam_least_base(CAM, None, 0.0),
+    "cam_remarks": lambda: _core.cam_remarks(CAM),
+    "cam_case": lambda: _core.cam_case(CAM),
+    "cam_walls": lambda: _core.cam_walls(CAM, TIMES, None),
     "Record.number": lambda: RECORD.number("count"),
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,

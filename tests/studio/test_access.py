@@ -7,7 +7,7 @@ from sizes import FULL
 from studio.window import Opener
 
 AXE = Path(__file__).parents[2] / "studio" / "node_modules" / "axe-core" / "axe.min.js"
-MODES = ("edit", "move", "live", "read")
+MODES = ("edit", "move", "live", "read", "design")
 SIZES = {"desktop": (1280, 800), "phone": (390, 844)}
 
 
@@ -31,6 +31,9 @@ def test_no_rule_of_access_is_violated(fresh: Opener, size: str, colours: str) -
         one.page.wait_for_timeout(500)
         if mode == "live":
             one.page.keyboard.press("Space")
+        if mode == "design":
+            one.page.locator("#by-cam").click()
+            one.settle()
         violations = one.call("axe.run().then(({ violations }) => violations)")
         found[mode] = [f"{each['id']}: {each['nodes'][0]['html'][:120]}" for each in violations]
     assert found == {mode: [] for mode in MODES}

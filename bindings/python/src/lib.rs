@@ -7,6 +7,7 @@
 mod active;
 mod assemble;
 mod attended;
+mod cams;
 mod case;
 mod column_formulas;
 mod compliance;
@@ -121,10 +122,28 @@ fn add_drawing_and_sweeps(module: &Bound<'_, PyModule>) -> PyResult<()> {
     Ok(())
 }
 
+/// Adds the functions for cams.
+fn add_cams(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(cams::cam_laws, module)?)?;
+    module.add_function(wrap_pyfunction!(cams::cam_programme, module)?)?;
+    module.add_function(wrap_pyfunction!(cams::cam_lift, module)?)?;
+    module.add_function(wrap_pyfunction!(cams::cam_sampled, module)?)?;
+    module.add_function(wrap_pyfunction!(cams::cam_check, module)?)?;
+    module.add_function(wrap_pyfunction!(cams::cam_angles, module)?)?;
+    module.add_function(wrap_pyfunction!(cams::cam_shape, module)?)?;
+    module.add_function(wrap_pyfunction!(cams::cam_limits, module)?)?;
+    module.add_function(wrap_pyfunction!(cams::cam_least_base, module)?)?;
+    module.add_function(wrap_pyfunction!(cams::cam_remarks, module)?)?;
+    module.add_function(wrap_pyfunction!(cams::cam_case, module)?)?;
+    module.add_function(wrap_pyfunction!(cams::cam_walls, module)?)?;
+    Ok(())
+}
+
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     guard::quiet_inside();
     add_drawing_and_sweeps(module)?;
+    add_cams(module)?;
     module.add_class::<case::PyCase>()?;
     module.add_class::<model::PyModel>()?;
     module.add_class::<dynamics::PyRun>()?;

@@ -4,6 +4,7 @@
 //! of numbers are in memory at [`numbers`]. There is one [`Session`]. Tests in Rust use it without WebAssembly.
 #![deny(unsafe_code)]
 
+mod cam;
 mod catalogue;
 mod columns;
 mod convert;

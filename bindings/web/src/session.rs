@@ -1,5 +1,6 @@
 //! The data that a page works with: a text, its mechanism, a motion in progress and the last run.
 
+use crate::cam;
 use crate::catalogue::catalogue;
 use crate::columns::slopes;
 use crate::convert::Fields;
@@ -108,6 +109,9 @@ impl Session {
                 let solved = self.task()?.solved(&mut self.tracing, 0)?;
                 solved.taken(fields.number("choice")? as usize)
             }
+            "cam" => cam::described(fields),
+            "cam_case" => cam::case(fields),
+            "cam_drawing" => cam::drawing(fields),
             "values" => self.values(&fields.texts("names")?),
             other => Err(Fault::new(format!("there is no request '{other}'"))),
         }

@@ -7,7 +7,7 @@
 
 use super::array::indexed;
 use super::real::Real;
-use super::spline_system::{solve, Stretch};
+use super::spline_system::{clamped, solve, Stretch};
 use crate::math::Listed;
 
 /// The interpolation between the points.
@@ -63,6 +63,21 @@ pub struct Spline<S = f64> {
     periodic: bool,
 }
 
+impl Spline {
+    /// The pieces of the quintic spline whose first and second derivatives at its ends are given: the coefficients of the
+    /// powers of x - knot.
+    ///
+    /// # Panics
+    /// If there are fewer than two points, or x and y differ in length.
+    pub fn clamped(x: &[f64], y: &[f64], ends: [[f64; 2]; 2]) -> Vec<[f64; 6]> {
+        assert!(x.len() == y.len() && x.len() > 1, "too few points");
+        let stretches = stretches(x, y);
+        let mut pieces = quintic(&stretches, &clamped(&stretches, ends));
+        pieces.iter_mut().zip(y).for_each(|(piece, y)| piece[0] = *y);
+        pieces
+    }
+}
+
 impl<S: Real> Spline<S> {
     /// The spline through the points (x, y) with increasing x. A periodic spline has equal first and last y.
     ///
@@ -70,8 +85,7 @@ impl<S: Real> Spline<S> {
     /// If there are fewer points than [`Interpolation::least`], or x and y differ in length.
     pub fn new(kind: Interpolation, periodic: bool, x: &[S], y: &[S]) -> Self {
         assert!(x.len() == y.len() && x.len() >= kind.least(periodic), "too few points");
-        let stretches: Vec<Stretch<S>> =
-            (1..x.len()).map(|k| Stretch { width: x[k] - x[k - 1], rise: y[k] - y[k - 1] }).list();
+        let stretches = stretches(x, y);
         let pieces = match kind {
             Interpolation::Linear => linear(&stretches),
             Interpolation::Cubic => cubic(&stretches, &solve(&stretches, periodic, Stretch::cubic)),
@@ -191,6 +205,11 @@ fn cubic<S: Real>(stretches: &[Stretch<S>], slopes: &[[S; 2]]) -> Vec<[S; 6]> {
         [zero, d0, second, (d0 + d1 - two * m) / (h * h), zero, zero]
     };
     stretches.iter().enumerate().map(piece).list()
+}
+
+/// The intervals between points.
+fn stretches<S: Real>(x: &[S], y: &[S]) -> Vec<Stretch<S>> {
+    (1..x.len()).map(|k| Stretch { width: x[k] - x[k - 1], rise: y[k] - y[k - 1] }).list()
 }
 
 /// The pieces of a quintic spline, from the first and second derivatives at the knots.

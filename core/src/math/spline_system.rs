@@ -63,6 +63,26 @@ pub(super) fn solve<S: Real>(
     periodic: bool,
     share: fn(&Stretch<S>) -> Share<S>,
 ) -> Vec<[S; M]> {
+    let mut solution = conditions(stretches, periodic, share).solve();
+    if periodic {
+        solution.push(solution[0]);
+    }
+    solution
+}
+
+/// The derivatives at all knots of a quintic spline; those at its ends are given.
+pub(super) fn clamped(stretches: &[Stretch<f64>], ends: [[f64; M]; 2]) -> Vec<[f64; M]> {
+    let mut found = conditions(stretches, false, Stretch::quintic);
+    found.clamp(ends);
+    found.solve()
+}
+
+/// The conditions at all knots.
+fn conditions<S: Real>(
+    stretches: &[Stretch<S>],
+    periodic: bool,
+    share: fn(&Stretch<S>) -> Share<S>,
+) -> Conditions<S> {
     let n = stretches.len() + usize::from(!periodic);
     let none = [[S::zero(); M]; M];
     let mut conditions = Conditions {
@@ -85,11 +105,7 @@ pub(super) fn solve<S: Real>(
             conditions.right[last][m] += share.right[1][m];
         }
     }
-    let mut solution = conditions.solve();
-    if periodic {
-        solution.push(solution[0]);
-    }
-    solution
+    conditions
 }
 
 /// Blocks of a symmetric matrix by rows: the diagonal, the next block to the right, and the last column.
@@ -136,6 +152,24 @@ impl<S: Real> Conditions<S> {
             x[k] = apply(&inverse(&self.diagonal[k]), &right);
         }
         x
+    }
+}
+
+impl Conditions<f64> {
+    /// Gives the unknowns of the first and the last knot.
+    fn clamp(&mut self, [first, end]: [[f64; M]; 2]) {
+        let last = self.diagonal.len() - 1;
+        let [above, below] =
+            [0, last - 1].map(|k| std::mem::replace(&mut self.next[k], [[0.0; M]; M]));
+        for (row, share) in
+            [(1, apply(&transposed(&above), &first)), (last - 1, apply(&below, &end))]
+        {
+            (0..M).for_each(|m| self.right[row][m] -= share[m]);
+        }
+        for (k, given) in [(0, first), (last, end)] {
+            self.diagonal[k] = [[1.0, 0.0], [0.0, 1.0]];
+            self.right[k] = given;
+        }
     }
 }
 

@@ -240,6 +240,43 @@ export interface Solved {
   candidates: Candidate[];
 }
 
+/** The programme and the sizes of a cam, in SI units; the arguments of `kp.design.cam`. */
+export interface CamGiven {
+  follower: "roller" | "knife" | "flat";
+  closure: "force" | "groove" | "conjugate";
+  direction: "ccw" | "cw";
+  base_radius: number;
+  roller_radius: number;
+  offset: number;
+  arm: number | null;
+  pivot: Point | null;
+  face: number;
+  speed: number;
+  mass: number;
+  spring: Point;
+  gravity: number;
+  programme: { way: "rise" | "dwell" | "return"; angle: number; lift: number | null; law: string }[];
+}
+
+/** The curves of a cam, as pairs of numbers, its limits, and what is doubtful. */
+export interface CamFound {
+  angles: number[];
+  curves: { profile: number[]; pitch?: number[]; outer?: number[]; conjugate?: number[] };
+  diagram: { angle: number[]; s: number[]; v: number[]; a: number[] };
+  /** The follower at the angle 0. */
+  start: { pitch: Point; normal: Point; profile: Point };
+  pressure_angle: { largest: number; at: number; recommended: number };
+  /** Null where it is infinite. */
+  radius_of_curvature: { least: number | null; at: number };
+  undercut: Point[];
+  remedies: { base: number | null; roller: Point | null } | null;
+  /** The least base radius for the recommended pressure angle without undercut. */
+  least_base: number | null;
+  /** Null if the follower never leaves the cam. */
+  lift_off_speed: number | null;
+  remarks: string[];
+}
+
 /** The static part of a scene; docs/scene.md describes all of it. */
 export interface Scene {
   bounds: [number, number, number, number];
@@ -291,6 +328,9 @@ export interface Requests {
   improve: { send: object; reply: Search };
   synthesis: { send: { starts?: number }; reply: Solved };
   candidate: { send: { choice: number }; reply: { changes: Change[] } };
+  cam: { send: CamGiven; reply: CamFound };
+  cam_case: { send: CamGiven; reply: { text: string } };
+  cam_drawing: { send: CamGiven; reply: { text: string } };
   instant: { send: { at: number }; reply: Instant };
   frames: { send: object; reply: object };
   values: { send: { names: string[] }; reply: { units: string[] } };

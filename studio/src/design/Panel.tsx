@@ -1,5 +1,6 @@
 // The panel of design mode: the poses, the limits, and the candidates with their defects.
 import type { Candidate, Triple } from "../core/protocol";
+import { cam as camTexts } from "../designTexts";
 import { displayed } from "../draw/display";
 import { besideUnit, minus, significant } from "../draw/numbers";
 import { typed } from "../edit/values";
@@ -8,6 +9,8 @@ import { Button, Check, Facts, Section } from "../panels/parts";
 import { change } from "../store/document";
 import { units } from "../store/state";
 import { texts } from "../texts";
+import { CamPanel } from "./CamPanel";
+import { cams } from "./cam";
 import { addBeside } from "./handler";
 import { take } from "./take";
 import {
@@ -39,12 +42,13 @@ export function DesignPanel() {
   const words = texts.design;
   const begun = poses.value.length > 0;
   const told = draws.value ? (begun ? words.hintPath : words.beginPath) : begun ? words.hint : words.begin;
-  const kind = (of: "poses" | "points") => (
+  const kind = (of: "poses" | "points" | "cam") => (
     <Button
       label={words.kinds[of]}
-      pressed={list.value === of}
+      pressed={of === "cam" ? cams.value : !cams.value && list.value === of}
       onClick={() => {
-        draws.value = of === "points";
+        cams.value = of === "cam";
+        if (of !== "cam") draws.value = of === "points";
       }}
       id={`by-${of}`}
     />
@@ -54,8 +58,17 @@ export function DesignPanel() {
       <div class="buttons">
         {kind("poses")}
         {kind("points")}
+        {kind("cam")}
       </div>
-      <p class="doc">{told}</p>
+      <p class="doc">{cams.value ? camTexts.begin : told}</p>
+      {cams.value ? <CamPanel /> : <Task />}
+    </div>
+  );
+}
+
+function Task() {
+  return (
+    <>
       {fault.value ? (
         <p class="doc wrong" role="alert">
           {fault.value}
@@ -64,7 +77,7 @@ export function DesignPanel() {
       <Poses />
       {section.value ? <Limits /> : null}
       {solved.value ? <Candidates /> : null}
-    </div>
+    </>
   );
 }
 

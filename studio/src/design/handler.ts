@@ -7,6 +7,7 @@ import { Draft } from "../store/document";
 import { report } from "../store/session";
 import { view } from "../store/sheet";
 import { snapping } from "../store/state";
+import { cams } from "./cam";
 import { ORIGIN, tipOf } from "./painting";
 import { begin, drop, finish, follow, stroke } from "./stroke";
 import { active, addPose, draws, posed, poses, single, written } from "./task";
@@ -58,6 +59,7 @@ function moved({ k, turns }: Held, spot: Spot): Triple {
 
 export const design: Handler = {
   down(spot) {
+    if (cams.value) return false;
     const found = under(spot);
     if (!found) {
       if (draws.value) begin(spot.at);
@@ -82,6 +84,7 @@ export const design: Handler = {
     held = null;
   },
   click(spot) {
+    if (cams.value) return;
     const found = under(spot);
     if (found) active.value = found.k;
     else place(snapped(spot.at, isFree(spot)));
@@ -90,7 +93,7 @@ export const design: Handler = {
   hover(spot) {
     over = spot !== null && under(spot) !== null;
   },
-  cursor: () => (over && !stroke.value.length ? "move" : "crosshair"),
+  cursor: () => (cams.value ? "grab" : over && !stroke.value.length ? "move" : "crosshair"),
 };
 
 /** Add a pose with the angle of the last one. */

@@ -1,6 +1,7 @@
 // window.kempe: the page for programs, as studio/README.md describes it.
 
-import type { Found, Loaded, Ran, Requests, Solved } from "../core/protocol";
+import type { CamFound, Found, Loaded, Ran, Requests, Solved } from "../core/protocol";
+import { found as cam } from "../design/cam";
 import { diagrams } from "../diagrams/shown";
 import { enter } from "../modes/modes";
 import { course, run, valuesOf } from "../modes/read";
@@ -18,6 +19,7 @@ export interface Interface {
   run(of?: number | string): Promise<Ran | Found | null>;
   values(names: string[]): Promise<{ t: number[]; units: string[]; rows: number[][] }>;
   diagrams(output?: number): Promise<object | null>;
+  cam(): Promise<CamFound | null>;
   synthesis(): Promise<Solved>;
   slopes(measure: string): Promise<Requests["slopes"]["reply"]>;
   screen(point: Point): Promise<Point>;
@@ -50,6 +52,10 @@ export const kempe: Interface = {
   settled,
   diagrams,
   slopes: async (measure) => (await send("slopes", { measure })).ok,
+  async cam() {
+    await settled();
+    return cam.value;
+  },
   async synthesis() {
     let { ok } = await send("synthesis", {});
     while (ok.tried! < ok.most!) ({ ok } = await send("synthesis", { starts: 1 }));

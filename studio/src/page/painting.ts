@@ -1,6 +1,8 @@
 // Paints the whole drawing from the state of the page.
 import { isPin } from "../catalogue/catalogue";
 import { entry } from "../catalogue/tree";
+import { found as camFound, cams, sizes } from "../design/cam";
+import { paintCam } from "../design/camPainting";
 import { before } from "../design/improve";
 import { paintCandidate, paintPath, paintPoses } from "../design/painting";
 import { stroke } from "../design/stroke";
@@ -40,6 +42,8 @@ export function follow(): void {
     active,
     before,
     blamed,
+    camFound,
+    cams,
     candidate,
     centres,
     centrodes,
@@ -56,6 +60,7 @@ export function follow(): void {
     scene,
     selection,
     shown,
+    sizes,
     stroke,
     tree,
     traces,
@@ -71,7 +76,8 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
   const editing = (mode.value === "edit" || mode.value === "design") && !bare;
   if (!bare) paintBackdrop(context);
   if (shown.value.grid) paintGrid(context, view, colours, editing);
-  if (found && !(mode.value === "design" && taken.value !== null)) {
+  const replaced = mode.value === "design" && (cams.value || taken.value !== null);
+  if (found && !replaced) {
     paintArea(context, view, outlines.value, colours);
     if (shown.value.traces) paintTraces(context, view, traces.value, colours);
     if (!bare) paintSelection(context, colours);
@@ -109,6 +115,10 @@ function paintBefore(context: CanvasRenderingContext2D, colours: Colours): void 
 }
 
 function paintDesign(context: CanvasRenderingContext2D, colours: Colours): void {
+  if (cams.value) {
+    if (camFound.value) paintCam(context, view, camFound.value, sizes.value, colours);
+    return;
+  }
   const [one, all] = [candidate.value, designPoses.value];
   if (one) paintCandidate(context, view, one, draws.value ? [] : all, active.value ?? 0, colours);
   if (draws.value) paintPath(context, view, all, active.value, stroke.value, colours);

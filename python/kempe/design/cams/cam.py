@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from kempe import _core
 from kempe.base.arrays import Floats
 from kempe.design.cams import files
-from kempe.design.cams.case import case_of
 from kempe.design.cams.curves import CamCurves, plane
-from kempe.design.cams.remarks import remarks_of
-from kempe.design.cams.sizes import least_base
 from kempe.errors import ModelError
 from kempe.model.given import value
 from kempe.model.values import Number
@@ -49,7 +47,8 @@ class Cam(CamCurves):
             ModelError: no base circle keeps the limits.
         """
         steep = None if pressure_angle is None else value(pressure_angle, "pressure_angle", "rad")
-        found = least_base(self, steep, value(radius_of_curvature, "radius_of_curvature", "m"))
+        sharp = value(radius_of_curvature, "radius_of_curvature", "m")
+        found = _core.cam_least_base(self, steep, sharp)
         if found is None:
             hint = "lengthen the segments, choose a gentler law, or lessen the lift or the roller"
             raise ModelError("no base circle keeps the limits", hint=hint)
@@ -58,7 +57,7 @@ class Cam(CamCurves):
     @cached_property
     def remarks(self) -> tuple[str, ...]:
         """What is wrong or doubtful, each with a remedy; empty if nothing is."""
-        return tuple(remarks_of(self))
+        return tuple(_core.cam_remarks(self))
 
     @cached_property
     def case(self) -> Case:
@@ -72,7 +71,9 @@ class Cam(CamCurves):
         Raises:
             ModelError: the profile is undercut.
         """
-        return case_of(self)
+        from kempe.case import parsed
+
+        return parsed(_core.cam_case(self), "toml", None)
 
     def write_dxf(
         self, path: Path | str, *, cutter_radius: Number | None = None, unit: str = "mm"
@@ -121,8 +122,8 @@ class Cam(CamCurves):
         Raises:
             ModelError: the cutter does not fit into the hollows of the profile, or into the groove.
         """
-        asked = value(radius, "cutter_radius", "m")
-        return plane(files.cutter(self, asked, self.shape, self.second)["cutter"])
+        walls = _core.cam_walls(self, self.angle, value(radius, "cutter_radius", "m"))
+        return plane(dict(walls)["cutter"])
 
     def __repr__(self) -> str:
         kind = "oscillating" if self.follower.arm is not None else "translating"

@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from math import pi
-from typing import Any
 
 import numpy as np
 
+from kempe import _core
 from kempe.base.arrays import Floats, fixed
-from kempe.base.exports import needed
 from kempe.design.cams.laws import Programme
-from kempe.design.cams.shape import Complexes, Follower, Shape, shape
+from kempe.design.cams.shape import Complexes, Follower, Shape
 from kempe.errors import ModelError
-
-#: Steps of the angle: the largest, and the least beside ends of pieces, where derivatives jump; and
-#: the growth of the steps with the distance from these. Larger steps in dwells are worse: the
-#: parameter of a spline through points is their chord length.
-_STEP, _FINE, _GROWTH = pi / 360.0, 3e-5, 0.25
 
 
 @dataclass(frozen=True)
@@ -59,17 +51,7 @@ class CamCurves:
     @cached_property
     def angle(self) -> Floats:
         """Angles of the cam, rad, (n,), from 0 to below 2π: dense where derivatives jump."""
-        starts = np.array([piece.start for piece in self.programme.pieces])
-        made = []
-        for piece in self.programme.pieces:
-            half = (piece.end - piece.start) / 2.0
-            steps, place = [0.0], 0.0
-            while place < half:
-                place += min(_FINE + _GROWTH * place, _STEP)
-                steps.append(place)
-            side = np.array(steps) * half / place
-            made += [piece.start + side[:-1], piece.end - side[:0:-1]]
-        return fixed(np.unique(np.concatenate([starts, *made])))
+        return fixed(_core.cam_angles(self))
 
     @cached_property
     def shape(self) -> Shape:
@@ -88,17 +70,8 @@ class CamCurves:
             angle: the angles.
             second: whether it is that of the conjugate cam.
         """
-        at = np.asarray(angle, dtype=np.float64)
-        rows = np.stack([self.programme.at(at, order) for order in range(4)])
-        return self._shape(at, rows, second=second)
-
-    def _shape(self, angle: Floats, rows: Floats, *, second: bool) -> Shape:
-        of = self.follower
-        if second:
-            of = replace(of, opposite=True)
-            rows = np.stack([self.programme.size - rows[0], *-rows[1:]])
-        found = shape(of, angle, rows)
-        return found.mirrored() if self.clockwise else found
+        curves, rows = _core.cam_shape(self, np.asarray(angle, dtype=np.float64), second)
+        return Shape(*curves, *rows)
 
     @property
     def lift(self) -> Floats:
@@ -162,145 +135,46 @@ class CamCurves:
         Raises:
             ModelError: the follower has no flat face.
         """
-        of = self.follower
-        if of.kind != "flat":
+        if self.follower.kind != "flat":
             raise ModelError("the follower has no flat face", hint="give follower='flat'")
-        side = -1.0 if self.clockwise else 1.0
-        at = self.shape.profile * np.exp(1j * side * self.angle)
-        if of.arm is None:
-            return fixed(at.real - side * of.offset)
-        far = np.abs(at - complex(side * of.pivot.real, of.pivot.imag))
-        return fixed(np.sqrt(np.maximum(far**2 - of.face**2, 0.0)))
+        return fixed(self.shape.touch)
 
     @cached_property
+    def _limits(self) -> tuple[float, float, float, list[tuple[float, float]]]:
+        return _core.cam_limits(self)
+
+    @property
     def largest_pressure_angle(self) -> float:
         """The largest magnitude of the pressure angle, rad, of both cams if there are two."""
-        return max(-self._least(lambda of: -np.abs(of.pressure), second=k) for k in self._sides)
+        return self._limits[0]
 
-    @cached_property
+    @property
     def least_radius_of_curvature(self) -> float:
         """The least radius of curvature, m, where the roller or face needs one; ≤ 0 if undercut.
 
         It is that of convex parts of the profiles, and of hollows of the outer wall of a groove.
         """
-        found = [self._least(_convex, second=k) for k in self._sides]
-        if self.closure == "groove":
-            found.append(self._least(self._hollow))
-        return min(found)
-
-    def _hollow(self, of: Shape) -> Floats:
-        """Radius of curvature of the outer wall where the roller's path is concave."""
-        with np.errstate(divide="ignore"):
-            return np.where(of.bend < 0.0, -1.0 / of.bend - self.follower.roller, np.inf)
+        return self._limits[1]
 
     @property
-    def _sides(self) -> tuple[bool, ...]:
-        return (False, True) if self.closure == "conjugate" else (False,)
-
-    def _least(self, of: Callable[[Shape], Floats], *, second: bool = False) -> float:
-        """The least value over a turn, also between and on both sides of the ends of pieces."""
-        minimize = needed("scipy.optimize", "design", "kp.design.cam").minimize_scalar
-        angle, rows = self.programme.sampled()
-        values = of(self._shape(angle, rows, second=second))
-        k = int(np.argmin(values))
-        near = 1e-9 * float(np.abs(rows[2]).max())
-        piece = next(
-            one
-            for one in self.programme.pieces
-            if one.start <= angle[k] <= one.end and abs(one.at(angle[k], 2) - rows[2, k]) <= near
-        )
-        low, high = angle[max(k - 1, 0)], angle[min(k + 1, len(angle) - 1)]
-        low, high = max(float(low), piece.start), min(float(high), piece.end)
-
-        def value_at(x: float) -> float:
-            own = np.array([[piece.at(x, order)] for order in range(4)])
-            return float(of(self._shape(np.array([x]), own, second=second))[0])
-
-        best = float(values[k])
-        if high > low:
-            options = {"xatol": 1e-10}
-            found = minimize(value_at, bounds=(low, high), method="bounded", options=options)
-            best = min(best, float(found.fun))
-        return best
-
-    @cached_property
-    def undercut(self) -> tuple[tuple[float, float], ...]:
-        """Intervals of the cam's angle, rad, in which a profile is undercut; empty if none is.
-
-        There the roller, or the face, does not touch the curve that it envelops: the profile cannot
-        be made, or does not move the follower as asked.
-        """
-        angle = self.angle
-        bad = np.zeros(len(angle), dtype=bool)
-        for of in filter(None, (self.shape, self.second)):
-            bad |= ~(of.room > 0.0)
-            if self.follower.kind == "roller":
-                bad |= _crossed(of.profile, of.pitch, self.follower.roller)
-            if self.closure == "groove":
-                bad |= ~(1.0 + self.follower.roller * of.bend > 0.0)
-                bad |= _crossed(
-                    of.beside(2.0 * self.follower.roller), of.pitch, self.follower.roller
-                )
-        if not bad.any() and self.least_radius_of_curvature <= 0.0:  # between two angles
-            bad[int(np.argmin(self.shape.room))] = True
-        return _intervals(angle, bad)
-
-    @cached_property
     def lift_off_speed(self) -> float:
         """Speed at which the follower leaves the cam, rad/s: where the normal force falls to zero.
 
         Infinite with a groove or a conjugate cam, and where nothing decelerates the follower; 0 if
         it is not pressed onto the cam even at rest.
         """
-        if self.closure != "force":
-            return float("inf")
-        _, rows = self.programme.sampled(pi / 14400.0)
-        inertia, press = self._inertia, self._pressing(rows[0])
-        if (press <= 0.0).any():
-            return 0.0
-        slowed = rows[2] < 0.0
-        if not slowed.any() or inertia == 0.0:
-            return float("inf")
-        return float(np.sqrt((press[slowed] / (-rows[2][slowed] * inertia)).min()))
+        return self._limits[2]
 
     @property
-    def _inertia(self) -> float:
-        """Mass, or moment of inertia about the pivot."""
-        arm = self.follower.arm
-        return self.drive.mass * (1.0 if arm is None else arm**2 / 3.0)
+    def undercut(self) -> tuple[tuple[float, float], ...]:
+        """Intervals of the cam's angle, rad, in which a profile is undercut; empty if none is.
 
-    def _pressing(self, s: Floats) -> Floats:
-        """Force, or torque about the pivot, of spring and weight towards the cam at rest."""
-        stiffness, force = self.drive.spring
-        weight: Any = self.drive.mass * self.drive.gravity
-        of = self.follower
-        if of.arm is not None:
-            weight = weight * of.sense * of.arm / 2.0 * np.cos(of.direction(s))
-        return np.asarray(stiffness * s + force + weight)
+        There the roller, or the face, does not touch the curve that it envelops: the profile cannot
+        be made, or does not move the follower as asked.
+        """
+        return tuple(self._limits[3])
 
 
 def plane(z: Complexes) -> Floats:
     """Complex numbers as places, (n, 2)."""
     return fixed(np.column_stack([z.real, z.imag]))
-
-
-def _convex(of: Shape) -> Floats:
-    """The radius of curvature where the pitch curve is convex; infinite elsewhere."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        found = np.where((of.bend > 0.0) | (of.room <= 0.0), of.radius, np.inf)
-    flat = not of.bend.any()
-    return of.radius if flat else found
-
-
-def _crossed(profile: Complexes, pitch: Complexes, roller: float) -> Any:
-    """Whether points of a profile are nearer to the pitch curve than the radius of the roller."""
-    near = np.array([np.abs(pitch - point).min() for point in profile])
-    return near < roller * (1.0 - 1e-6)
-
-
-def _intervals(angle: Floats, bad: Any) -> tuple[tuple[float, float], ...]:
-    places = np.flatnonzero(bad)
-    if not len(places):
-        return ()
-    parts = np.split(places, np.flatnonzero(np.diff(places) > 1) + 1)
-    return tuple((float(angle[part[0]]), float(angle[part[-1]])) for part in parts)
