@@ -372,7 +372,7 @@ class States:
         """The values of a measure, (n_t,), from accelerations and multipliers if it needs them."""
 
 def matrices(model: Model, t: float, q: _F, v: _F, z: _F, set: str) -> dict[str, Any]:  # noqa: A002
-    """``M``, ``Phi``, ``Phi_q``, ``nu``, ``gamma``, ``Q``, ``kkt``, and the names and units of ``rows``.
+    """``M``, ``Phi``, ``Phi_q``, ``nu``, ``gamma``, ``Q``, ``kkt``; names and units of ``rows``.
 
     ``set`` has further driver rows, as in ``assemble``.
     """

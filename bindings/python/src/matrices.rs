@@ -14,7 +14,8 @@ use pyo3::types::PyDict;
 /// The name and the unit of each equation. Friction that sticks, or a contact at rest, has one under its own name; a
 /// driver with a limit that follows its law has its own.
 fn rows(model: &Model) -> Vec<(String, &'static str)> {
-    let limits = |name: &str| model.forces.iter().any(|of| of.name == name && of.element.driver().is_some());
+    let limits =
+        |name: &str| model.forces.iter().any(|of| of.name == name && of.element.driver().is_some());
     let of_item = |item: &ConstraintItem| {
         let own = match item.name.rsplit_once(" (") {
             Some((driver, _)) if limits(driver) => driver,

@@ -1,8 +1,12 @@
 //! Failures of contacts and friction that no motion agrees with.
 
 use super::failure::{positions, Failure, Reason};
+use super::options::Jam;
 use crate::analyses::rigid::is_rigid;
 use crate::model::Model;
+
+/// The advice that is left out where it is followed.
+const USE_IMPACT: &str = ", or use jam = \"impact\"";
 
 /// The friction paradox of a joint, at these positions.
 fn jammed(t: f64, joint: &str, positions: &str) -> String {
@@ -35,10 +39,20 @@ impl Failure {
         let name = model.forces[contact].name.clone();
         let message = format!(
             "friction paradox (Painlevé) in contact {name} at t = {t:.6} s: no normal force agrees with the friction that it \
-             causes, so that the contact jams; reduce its friction, give it a stiffness in place of restitution, or \
-             use jam = \"impact\""
+             causes, so that the contact jams; reduce its friction or give it a stiffness in place of restitution{USE_IMPACT}"
         );
         Reason::Singular { t, name, message }.into()
+    }
+
+    /// The failure without advice that a run with these options follows.
+    pub(super) fn advised(mut self: Box<Self>, jam: Jam) -> Box<Self> {
+        match &mut self.reason {
+            Reason::Singular { message, .. } if jam == Jam::Impact => {
+                *message = message.replace(USE_IMPACT, "");
+            }
+            _ => {}
+        }
+        self
     }
 
     /// Failure of a stop, contact or friction whose mode contradicts its motion, although others were tried.

@@ -32,8 +32,9 @@ class Matrices:
         gamma: right side of the acceleration equation, (m,).
         Q: (n_q,), N and N·m.
         kkt: the coefficient matrix of (6.3.18), (n_q + m, n_q + m).
-        rows: names of the equations, such as ``A.x``. In a run, friction that sticks and contacts at
-            rest have equations too, and a driver at its limit has none. Those of ``set=`` come last.
+        rows: names of the equations, such as ``A.x``. In a run, friction that sticks and contacts
+            at rest have equations too, and a driver at its limit has none. The rows of ``set=``
+            come last.
         units: units of the equations, m or rad.
         columns: names of the coordinates, such as ``crank.angle``.
     """
