@@ -73,3 +73,23 @@ impl Failure {
         Reason::Integration { t, message, hint }.into()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn advice_that_is_followed_is_left_out() {
+        let message = |jam: Jam| {
+            let message = format!("reduce its friction{USE_IMPACT}");
+            let failure =
+                Box::<Failure>::from(Reason::Singular { t: 0.0, name: String::new(), message });
+            match failure.advised(jam).reason {
+                Reason::Singular { message, .. } => message,
+                _ => String::new(),
+            }
+        };
+        assert_eq!(message(Jam::Impact), "reduce its friction");
+        assert!(message(Jam::Refuse).ends_with("or use jam = \"impact\""));
+    }
+}

@@ -115,7 +115,7 @@ fn settle_part(
     let mut modes = loop {
         let jumped = (!found.hits.is_empty() || !jammed.is_empty()).then_some(fastest);
         let at_once = (ended.fired.as_slice(), ended.ceased.as_slice());
-        // the accelerations of a contact that jams have no bound, and are no measure of those after it
+        // a contact that jams has accelerations without bound, which say nothing about the motion after it
         let is_lost = |of: &ForceMode| jammed.contains(&of.force) || ended.lost.contains(&of.force);
         let calm = |of: &ForceMode| ForceMode {
             mode: if is_lost(of) { Mode::Free } else { of.mode },
