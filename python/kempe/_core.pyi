@@ -371,8 +371,8 @@ class States:
     def measure(self, text: str) -> _F:
         """The values of a measure, (n_t,), from accelerations and multipliers if it needs them."""
 
-def matrices(model: Model, t: float, q: _F, v: _F, z: _F, set: str) -> dict[str, _F]:  # noqa: A002
-    """``M``, ``Phi``, ``Phi_q``, ``nu``, ``gamma``, ``Q`` and ``kkt`` at a state.
+def matrices(model: Model, t: float, q: _F, v: _F, z: _F, set: str) -> dict[str, Any]:  # noqa: A002
+    """``M``, ``Phi``, ``Phi_q``, ``nu``, ``gamma``, ``Q``, ``kkt``; names and units of ``rows``.
 
     ``set`` has further driver rows, as in ``assemble``.
     """

@@ -217,30 +217,75 @@ def test_a_jam_among_many_closed_contacts_is_named_with_a_remedy() -> None:
         kp.dynamics(m, start, t_end=1e-3, jam="impact")
 
 
+def among_others(
+    scale: tuple[float, float], order: tuple[str, ...], rods: dict[str, dict[str, float]]
+) -> tuple[kp.Model, kp.State]:
+    """Two rods and a block that slide on one floor."""
+    mass, size = scale
+    m = kp.Model("several", gravity=(0, -G))
+    m.ground.curves(floor={"line": ((900 * size, 0), (-900 * size, 0))})
+    rate, at = np.sqrt(G / size), {}
+    for k, name in enumerate(order):
+        x = 10 * k * size
+        if name == "block":
+            feet = {"L": (-size, -0.1 * size), "R": (size, -0.1 * size)}
+            m.body("block", mass=3 * mass, inertia=mass * size**2, points=feet)
+            at |= {"block.x": x, "block.y": 0.1 * size, "block.angle": 0, "block.vx": rate * size}
+            contacts = {f"foot_{foot}": (f"block.{foot}", 0.3) for foot in feet}
+        else:
+            own = rods[name]
+            m.bar(name, mass=mass, length=size, ends=("P", "Q"))
+            at |= {f"{name}.angle": own["angle"], f"{name}.omega": own["spin"] * rate}
+            at |= {f"{name}.P.x": x, f"{name}.P.y": 0}
+            at |= {f"{name}.P.vx": own["speed"] * rate * size, f"{name}.P.vy": 0}
+            contacts = {f"touch_{name}": (f"{name}.P", own["mu"])}
+        for contact, (point, mu) in contacts.items():
+            m.contact(contact, point, "ground.floor", friction=mu, restitution=0)
+    return m, kp.assemble(m, set=at)
+
+
+CALM = {"mu": 0.4, "angle": np.pi - 0.9, "spin": 0.4, "speed": 1.0}
+
+
 @pytest.mark.parametrize("which", ["a", "b"])
 @pytest.mark.parametrize("order", list(itertools.permutations(["block", "a", "b"])))
 def test_a_paradox_names_its_contact_among_others(order: tuple[str, ...], which: str) -> None:
-    """Two rods and a block slide on one floor; one of the rods has too much friction."""
+    """One of the rods has too much friction."""
     for mass, size in SCALES:
-        m = kp.Model("several", gravity=(0, -G))
-        m.ground.curves(floor={"line": ((900 * size, 0), (-900 * size, 0))})
-        speed, at = np.sqrt(G * size), {}
-        for k, name in enumerate(order):
-            x = 10 * k * size
-            if name == "block":
-                feet = {"L": (-size, -0.1 * size), "R": (size, -0.1 * size)}
-                m.body("block", mass=3 * mass, inertia=mass * size**2, points=feet)
-                at |= {"block.x": x, "block.y": 0.1 * size, "block.angle": 0, "block.vx": speed}
-                contacts = {f"foot_{foot}": (f"block.{foot}", 0.3) for foot in feet}
-            else:
-                m.bar(name, mass=mass, length=size, ends=("P", "Q"))
-                at |= {f"{name}.angle": np.pi - 0.9, f"{name}.omega": 0.4 * np.sqrt(G / size)}
-                at |= {f"{name}.P.x": x, f"{name}.P.y": 0}
-                at |= {f"{name}.P.vx": speed, f"{name}.P.vy": 0}
-                contacts = {f"touch_{name}": (f"{name}.P", 1.5 if name == which else 0.4)}
-            for contact, (point, mu) in contacts.items():
-                m.contact(contact, point, "ground.floor", friction=mu, restitution=0)
-        start = kp.assemble(m, set=at)
+        rods = {"a": CALM, "b": CALM, which: CALM | {"mu": 1.5}}
+        m, start = among_others((mass, size), order, rods)
         with pytest.raises(kp.SingularityError, match=f"paradox.*contact touch_{which} ") as told:
             kp.dynamics(m, start, t_end=1e-6 * np.sqrt(size / G))
         assert told.value.name == f"touch_{which}"
+
+
+@pytest.mark.parametrize("which", ["a", "b"])
+@pytest.mark.parametrize("order", list(itertools.permutations(["block", "a", "b"]))[1::2])
+def test_a_paradox_on_the_way_names_its_contact_among_others(
+    order: tuple[str, ...], which: str
+) -> None:
+    """One of the rods comes to a position in which its force grows without bound."""
+    jams = {"mu": 3.63, "angle": 0.25, "spin": 1.44, "speed": -1.8}
+    for mass, size in SCALES:
+        m, start = rod(scale=(mass, size), **jams)
+        time = np.sqrt(size / G)
+        with pytest.raises(kp.SingularityError, match="paradox") as alone:
+            kp.dynamics(m, start, t_end=3 * time)
+        assert alone.value.t is not None
+        assert alone.value.t > 0.05 * time
+        m, start = among_others((mass, size), order, {"a": CALM, "b": CALM, which: jams})
+        with pytest.raises(kp.SingularityError, match=f"paradox.*contact touch_{which} ") as told:
+            kp.dynamics(m, start, t_end=3 * time)
+        assert told.value.name == f"touch_{which}"
+        assert told.value.t == pytest.approx(alone.value.t, rel=1e-4)
+        sol, texts = run(m, start, t_end=alone.value.t * (1 + 1e-3), jam="impact")
+        assert any(f"paradox (Painlevé) of touch_{which} at" in text for text in texts)
+        found = {name: of.t for name, of in sol.events.items() if name.endswith(".paradox")}
+        assert [name for name, t in found.items() if t.size] == [f"touch_{which}.paradox"]
+        # the impact passes the other bodies by, which go on sliding
+        hit = int(np.flatnonzero(np.diff(sol.t) == 0)[0])
+        for name in order:
+            rates = np.array([sol[f"{name}.{rate}"][hit : hit + 2] for rate in ("vx", "vy")])
+            change = np.abs(np.diff(rates)).max() / np.sqrt(G * size)
+            assert (change > 1e-3) == (name == which), (name, change)
+        assert np.abs(sol.energy.balance).max() < 1e-6

@@ -309,13 +309,15 @@ fn constraint(model: &Model, k: usize) -> Value {
     let (_, _, bodies) = connected(model, &touched);
     let result =
         |r: &ResultQuantity| json!({ "name": r.name, "unit": r.unit, "negative": r.negative });
+    let limits = |k: usize| model.forces[k].element.driver().is_some();
     let equation = |e: &kempe::elements::Equation| json!({ "name": e.name, "unit": e.kind.unit() });
     json!({
         "name": item.name,
         "group": item.group.section(),
         "type": item.element.kind(),
         "is_shown": item.element.in_files(),
-        "is_limited": item.companion.is_some_and(|k| model.forces[k].element.driver().is_some()),
+        "is_limited": item.companion.is_some_and(limits),
+        "may_slip": item.companion.is_some_and(|k| !limits(k)),
         "i": i,
         "j": j,
         "point_i": pair(&item.element.attachment(0).s),

@@ -177,7 +177,9 @@ impl<S: Real> Pressing<'_, S> {
     /// Whether the sense of the sliding is a switch, because the rates of the [states](STATES) bend where it changes.
     /// Friction that sticks has events there.
     fn wears_both_ways(&self) -> bool {
-        self.velocity.is_some() && self.wear.largest_magnitude() > 0.0
+        let most = self.r#static.unwrap_or(self.friction);
+        let has_events = self.velocity.is_none() && most.largest_magnitude() > 0.0;
+        !has_events && self.wear.largest_magnitude() > 0.0
     }
 
     /// The rates of the [states](STATES); those of wear after Archard (*Contact and rubbing of flat surfaces*, J. Appl.

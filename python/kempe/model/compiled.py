@@ -355,11 +355,6 @@ class CompiledModel:
         """Units of the constraint equations in the order of Φ: m or rad."""
         return [unit for c in self._all_constraints for _, unit in c.equations]
 
-    def acting_rows(self) -> list[tuple[str, str]]:
-        """Names and units of the constraint equations without those of released drivers."""
-        acting = [c for c in self._all_constraints if c.name not in self.released]
-        return [(f"{c.name}.{name}", unit) for c in acting for name, unit in c.equations]
-
     def __repr__(self) -> str:
         counts = f"{len(self.bodies)} bodies, {self.n_q} coordinates, {self.n_rows} equations"
         return f"<CompiledModel {self.title!r}: {counts}>"

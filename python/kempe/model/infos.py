@@ -132,6 +132,7 @@ class ConstraintInfo:
         measured: its position quantities.
         is_shown: whether lists and figures show it; a lock is part of its beam.
         is_limited: whether it is a driver whose effort has a limit.
+        may_slip: whether it is a joint with friction against slip.
     """
 
     name: str
@@ -153,6 +154,7 @@ class ConstraintInfo:
     measured: tuple[Measured, ...]
     is_shown: bool
     is_limited: bool
+    may_slip: bool
 
     def __repr__(self) -> str:
         return f"<{self.type} {self.name!r}: {' - '.join(self.bodies)}>"
@@ -284,6 +286,7 @@ def constraint(entry: dict[str, Any]) -> ConstraintInfo:
         measured=_measured(entry["measured"]),
         is_shown=entry["is_shown"],
         is_limited=entry["is_limited"],
+        may_slip=entry["may_slip"],
     )
 
 

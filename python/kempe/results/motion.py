@@ -251,12 +251,16 @@ class Motion:
         return self._answer(lambda states: states.force_results(name), lam)
 
     def force_energy(self, name: str) -> Floats:
-        """Energy that a force element stores and power that it dissipates, (…, 2), J and W."""
-        lam = self.lam if self.compiled.forces[name].reads_multipliers else None
+        """Energy that a force element stores and power that it dissipates, (…, 2), J and W.
+
+        The friction of a joint that may slip has the name of the joint.
+        """
+        known = self.compiled.forces.get(name)
+        lam = self.lam if known is None or known.reads_multipliers else None
         return self._answer(lambda states: states.force_energy(name), lam)
 
     def dissipated(self, name: str) -> Floats:
-        """Energy that a force element has dissipated since the start; see ``ForceView``."""
+        """Energy that a force element or a joint that slips has dissipated; see ``ForceView``."""
         raise ModelError(
             "a state or a motion at some times has no dissipated energy",
             name=name,

@@ -214,6 +214,8 @@ def of_constraint(motion: Motion, info: ConstraintInfo) -> Family:
         found[f"{name}_rate"] = Quantity(f"{unit}/s", rate)
     for name, unit in info.results:
         found[name] = Quantity(unit, partial(getattr, view, name))
+    if info.may_slip and getattr(motion, "dense", None) is not None:
+        found["dissipated"] = Quantity("J", partial(motion.dissipated, info.name))
     for k, (name, unit) in enumerate(info.equations):
         of = FORCE_UNITS.get(unit, f"J/{unit}")
         multiplier = partial(_column, partial(getattr, view, "lam"), k)

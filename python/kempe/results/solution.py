@@ -165,7 +165,7 @@ class Solution(WithSlopes, Tables, Motion):
             raise
 
     def dissipated(self, name: str) -> Floats:
-        """Energy that a force element has dissipated since the start; see ``ForceView``."""
+        """Energy that a force element or a joint that slips has dissipated; see ``ForceView``."""
         from kempe.results.dissipation import dissipated  # loads polynomials of NumPy
 
         return dissipated(self, name)

@@ -219,12 +219,14 @@ def _may_settle(state: State) -> list[str]:
     if model.n_q > _MOST:
         driven = model.redundancy == "refuse" and not model.released and model.n_rows == model.n_q
         return [] if driven else shown
-    names, units = zip(*model.acting_rows(), strict=True)
-    of_joints = np.array([name.rpartition(".")[0] not in acting for name in names])
+    found = state.matrices()
+    named = set(model.row_names())  # without friction that sticks and contacts at rest
+    own = np.array([name in named for name in found.rows])
+    of_joints = np.array([name.rpartition(".")[0] not in acting for name in found.rows])
     size = size_of(state) or 1.0
-    of = [np.where(np.array(of) == "m", size, 1.0) for of in (model.column_units(), units)]
-    phi_q = state.matrices().Phi_q * of[0] / of[1][:, None]
-    free, undriven = _free(phi_q), _free(phi_q[of_joints])
+    of = [np.where(np.array(of) == "m", size, 1.0) for of in (model.column_units(), found.units)]
+    phi_q = found.Phi_q * of[0] / of[1][:, None]
+    free, undriven = _free(phi_q[own]), _free(phi_q[own & of_joints])
     places = {name: model.bodies[name].columns for name in shown}
     turns = {name: at.stop - 1 for name, at in places.items()}
     return [

@@ -1,8 +1,12 @@
 //! Failures of contacts and friction that no motion agrees with.
 
 use super::failure::{positions, Failure, Reason};
+use super::options::Jam;
 use crate::analyses::rigid::is_rigid;
 use crate::model::Model;
+
+/// The advice that is left out where it is followed.
+const USE_IMPACT: &str = ", or use jam = \"impact\"";
 
 /// The friction paradox of a joint, at these positions.
 fn jammed(t: f64, joint: &str, positions: &str) -> String {
@@ -35,10 +39,20 @@ impl Failure {
         let name = model.forces[contact].name.clone();
         let message = format!(
             "friction paradox (Painlevé) in contact {name} at t = {t:.6} s: no normal force agrees with the friction that it \
-             causes, so that the contact jams; reduce its friction, give it a stiffness in place of restitution, or \
-             use jam = \"impact\""
+             causes, so that the contact jams; reduce its friction or give it a stiffness in place of restitution{USE_IMPACT}"
         );
         Reason::Singular { t, name, message }.into()
+    }
+
+    /// The failure without advice that a run with these options follows.
+    pub(super) fn advised(mut self: Box<Self>, jam: Jam) -> Box<Self> {
+        match &mut self.reason {
+            Reason::Singular { message, .. } if jam == Jam::Impact => {
+                *message = message.replace(USE_IMPACT, "");
+            }
+            _ => {}
+        }
+        self
     }
 
     /// Failure of a stop, contact or friction whose mode contradicts its motion, although others were tried.
@@ -57,5 +71,25 @@ impl Failure {
         let message = format!("{message} at t = {t:.6} s");
         let hint = "extend the range of the curve, or end the run before";
         Reason::Integration { t, message, hint }.into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn advice_that_is_followed_is_left_out() {
+        let message = |jam: Jam| {
+            let message = format!("reduce its friction{USE_IMPACT}");
+            let failure =
+                Box::<Failure>::from(Reason::Singular { t: 0.0, name: String::new(), message });
+            match failure.advised(jam).reason {
+                Reason::Singular { message, .. } => message,
+                _ => String::new(),
+            }
+        };
+        assert_eq!(message(Jam::Impact), "reduce its friction");
+        assert!(message(Jam::Refuse).ends_with("or use jam = \"impact\""));
     }
 }

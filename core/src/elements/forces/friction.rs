@@ -11,7 +11,7 @@
 //! the magnitude of the reaction of the joint or, for a slide of length l, the larger of |F| and 2 |T| / l, because a
 //! torque loads both ends of the slide. Without v₀, s is the sign of v. Where v is zero, the joint may stick: the
 //! friction then has any value up to μ_s N, and an equation holds the coordinate of the joint. The reaction in turn
-//! depends on the friction, see `equations/reactive.rs`.
+//! depends on the friction, see `equations/reactive.rs`. The load of a slide has bends, at which steps end.
 
 use crate::elements::{
     element, holding, Behaviour, BodyId, Constraint, Followed, Force, JointId, Mark, Mode, Nature,
@@ -53,6 +53,10 @@ element! {
 const DRY: usize = 0;
 const VISCOUS: usize = 1;
 
+/// The switches of a slide: the sign of its reaction, and whether the torque decides the load.
+const ACROSS: usize = 0;
+const TILTS: usize = 1;
+
 /// The results of friction in a slide, and in a pin.
 const SLIDING: [ResultQuantity; 3] = results("force", "N");
 const TURNING: [ResultQuantity; 3] = results("torque", "N*m");
@@ -85,20 +89,40 @@ impl<S: Real> Friction<S> {
             return (S::select(load, load, zero), Wrench::zero());
         }
         let Wrench { force, torque } = at.reaction;
-        let squared = force.dot(force);
-        let size = S::select(squared, squared.sqrt(), zero);
-        let along = force.scale(S::select(squared, S::one() / size, zero));
+        let (size, along) = match self.joint.turns() {
+            true => {
+                let squared = force.dot(force);
+                let size = S::select(squared, squared.sqrt(), zero);
+                (size, force.scale(S::select(squared, S::one() / size, zero)))
+            }
+            false => {
+                let (across, normal) = self.across(at);
+                let sign = at.choose(ACROSS, across, S::one(), -S::one());
+                (sign * across, normal.scale(sign))
+            }
+        };
         if !self.joint.holds_angle {
             return (size, Wrench { force: along, torque: zero });
         }
-        let per_torque = S::select(self.guide, S::constant(2.0) / self.guide, zero);
+        let per_torque = self.per_torque();
         let of_torque = per_torque * torque.abs();
-        let more = of_torque - size;
+        let tilts = |x: S, otherwise: S| at.choose(TILTS, of_torque - size, x, otherwise);
         let slope = Wrench {
-            force: along.scale(S::select(more, zero, S::one())),
-            torque: S::select(more, S::select(torque, per_torque, -per_torque), zero),
+            force: along.scale(tilts(zero, S::one())),
+            torque: tilts(S::select(torque, per_torque, -per_torque), zero),
         };
-        (size.max(of_torque), slope)
+        (tilts(of_torque, size), slope)
+    }
+
+    /// The reaction of a slide across it, and the normal of the slide.
+    fn across(&self, at: &Situation<'_, S>) -> (S, Vec2<S>) {
+        let normal = self.joint.direction(&at.i().pose).perp();
+        (at.reaction.force.dot(normal), normal)
+    }
+
+    /// The load for a torque of 1 N·m.
+    fn per_torque(&self) -> S {
+        S::select(self.guide, S::constant(2.0) / self.guide, S::zero())
     }
 
     /// μ at a speed.
@@ -202,6 +226,23 @@ impl Force for Friction {
         let [dry, viscous] = e.efforts(at);
         let sticks = if at.mode.holds() { S::one() } else { S::zero() };
         out.copy_from_slice(&[dry + viscous, e.normal(at).0, sticks]);
+    }
+
+    fn switch_count<S: Real>(e: &Friction<S>) -> usize {
+        match Self::reaction(e) {
+            Some(_) if e.joint.holds_angle => 2,
+            Some(_) if !e.joint.turns() => 1,
+            _ => 0,
+        }
+    }
+
+    fn switches<S: Real>(e: &Friction<S>, at: &Situation<'_, S>, out: &mut [S]) {
+        let (across, _) = e.across(at);
+        out[ACROSS] = across;
+        if let Some(tilts) = out.get_mut(TILTS) {
+            let more = e.per_torque() * at.reaction.torque.abs() - across.abs();
+            *tilts = S::select(e.guide, more, -S::one());
+        }
     }
 
     fn behaviour<S: Real>(e: &Friction<S>) -> Option<Behaviour<S>> {

@@ -2,7 +2,8 @@
 //!
 //! With the rate v of this quantity and the magnitude N of the reaction of the joint, the effort along it is -μ N sign v
 //! while the joint slides. Where v is zero, the effort may have any value up to μ_s N, and an equation holds the
-//! quantity. The reaction in turn depends on the friction, see `equations/reactive.rs`.
+//! quantity. The reaction in turn depends on the friction, see `equations/reactive.rs`. Where the reaction changes its
+//! sign, N has a bend, at which a step ends.
 //!
 //! The friction is a part of the joint: it has the name of the joint, and no file contains it.
 
@@ -11,7 +12,7 @@ use crate::elements::{
     ResultQuantity, Situation, Wrenches,
 };
 use crate::expression::Tape;
-use crate::math::{Real, Wrench};
+use crate::math::{Real, Vec2, Wrench};
 
 element! {
     /// Friction of a joint that may slip.
@@ -27,13 +28,18 @@ element! {
     }
 }
 
+/// The reaction of the joint across the slip, and its direction.
+fn across<S: Real>(e: &SlipFriction<S>, at: &Situation<'_, S>) -> (S, Vec2<S>) {
+    let [x, y, _] = e.coordinate.gradient[1];
+    let normal = Vec2::new(x, y).perp();
+    (at.reaction.force.dot(normal), normal)
+}
+
 /// A factor times the load, and its derivatives with respect to the reaction.
-fn times_load<S: Real>(factor: S, at: &Situation<'_, S>) -> (S, Wrench<S>) {
-    let (force, zero) = (at.reaction.force, S::zero());
-    let squared = force.dot(force);
-    let size = S::select(squared, squared.sqrt(), zero);
-    let along = force.scale(S::select(squared, factor / size, zero));
-    (factor * size, Wrench { force: along, torque: zero })
+fn times_load<S: Real>(factor: S, e: &SlipFriction<S>, at: &Situation<'_, S>) -> (S, Wrench<S>) {
+    let (across, normal) = across(e, at);
+    let factor = at.choose(0, across, factor, -factor);
+    (factor * across, Wrench { force: normal.scale(factor), torque: S::zero() })
 }
 
 /// The effort along the slip, and its derivatives with respect to the reaction.
@@ -44,7 +50,7 @@ fn effort<S: Real>(e: &SlipFriction<S>, at: &Situation<'_, S>) -> (S, Wrench<S>)
         Mode::Slides(sign) => S::constant(sign),
         _ => S::select(speed, one, S::select(-speed, -one, zero)),
     };
-    times_load(-sense * e.kinetic, at)
+    times_load(-sense * e.kinetic, e, at)
 }
 
 impl Force for SlipFriction {
@@ -90,6 +96,14 @@ impl Force for SlipFriction {
         out.copy_from_slice(&[-effort(e, at).0, sticks]);
     }
 
+    fn switch_count<S: Real>(_: &SlipFriction<S>) -> usize {
+        1
+    }
+
+    fn switches<S: Real>(e: &SlipFriction<S>, at: &Situation<'_, S>, out: &mut [S]) {
+        out[0] = across(e, at).0;
+    }
+
     fn behaviour<S: Real>(_: &SlipFriction<S>) -> Option<Behaviour<S>> {
         Some(Behaviour::Sticks)
     }
@@ -99,7 +113,7 @@ impl Force for SlipFriction {
     }
 
     fn limit<S: Real>(e: &SlipFriction<S>, at: &Situation<'_, S>) -> (S, Wrench<S>) {
-        times_load(e.r#static, at)
+        times_load(e.r#static, e, at)
     }
 
     fn holding(e: &SlipFriction<Tape>, _: f64, value: f64) -> Option<Constraint<Tape>> {

@@ -196,9 +196,7 @@ def show(
         )
         return Labelled(what, getattr(state, what), tuple(rows), (), tuple(of))
     found = state.matrices(assembly)
-    more = [coordinates.get(name.removeprefix("set."), "m") for name in found.rows]
-    units = [unit for _, unit in known.acting_rows()]
-    return _of(found, what, list(coordinates.values()), [*units, *more[len(units) :]])
+    return _of(found, what, list(coordinates.values()), list(found.units))
 
 
 def _of(found: Matrices, what: str, q: list[str], phi: list[str]) -> Labelled:

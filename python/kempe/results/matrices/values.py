@@ -32,7 +32,10 @@ class Matrices:
         gamma: right side of the acceleration equation, (m,).
         Q: (n_q,), N and N·m.
         kkt: the coefficient matrix of (6.3.18), (n_q + m, n_q + m).
-        rows: names of the equations, such as ``A.x``; the rows of ``set=`` come last.
+        rows: names of the equations, such as ``A.x``. In a run, friction that sticks and contacts
+            at rest have equations too, and a driver at its limit has none. The rows of ``set=``
+            come last.
+        units: units of the equations, m or rad.
         columns: names of the coordinates, such as ``crank.angle``.
     """
 
@@ -44,6 +47,7 @@ class Matrices:
     Q: Floats
     kkt: Floats
     rows: tuple[str, ...]
+    units: tuple[str, ...]
     columns: tuple[str, ...]
 
     def __repr__(self) -> str:
@@ -69,7 +73,6 @@ def matrices(state: State, held: Mapping[str, Number]) -> Matrices:
     found = _core.matrices(state.compiled.core, float(state.t), state.q, state.v, state.z, text)
     names = ("M", "Phi", "Phi_q", "nu", "gamma", "Q", "kkt")
     arrays = {name: fixed(found[name]) for name in names}
-    rows = [name for name, _ in state.compiled.acting_rows()]
-    extra = [f"set.{name}" for name in held]
-    labels = (*rows, *extra)[: len(arrays["Phi"])]
-    return Matrices(**arrays, rows=labels, columns=tuple(state.compiled.column_names()))
+    rows, units = zip(*found["rows"], strict=True) if found["rows"] else ((), ())
+    columns = tuple(state.compiled.column_names())
+    return Matrices(**arrays, rows=rows, units=units, columns=columns)

@@ -84,7 +84,8 @@ pub(super) fn settle(
     let places = |forces: &Vec<usize>| part.places(forces);
     let [fired, ceased, lost] = [&ended.fired, &ended.ceased, &ended.lost].map(places);
     let ended = Ended { fired, ceased, lost };
-    let found = settle_part(&part.model, place, (&own.0, &own.1), &ended, laws)?;
+    let found = settle_part(&part.model, place, (&own.0, &own.1), &ended, laws);
+    let found = found.map_err(|failure| failure.advised(laws.jam))?;
     let mut settled = part.whole(model, found);
     let Settled { modes, hits, changed, .. } = &mut settled;
     for (old, new) in before.iter().zip(modes) {
@@ -114,8 +115,17 @@ fn settle_part(
     let mut modes = loop {
         let jumped = (!found.hits.is_empty() || !jammed.is_empty()).then_some(fastest);
         let at_once = (ended.fired.as_slice(), ended.ceased.as_slice());
+        // a contact that jams has accelerations without bound, which say nothing about the motion after it
+        let is_lost = |of: &ForceMode| jammed.contains(&of.force) || ended.lost.contains(&of.force);
+        let calm = |of: &ForceMode| ForceMode {
+            mode: if is_lost(of) { Mode::Free } else { of.mode },
+            ..*of
+        };
         let decided = match lost {
-            [] => holding::decide(model, place, before, (touching, jumped), at_once),
+            [] => {
+                let before = before.iter().map(calm).list();
+                holding::decide(model, place, &before, (touching, jumped), at_once)
+            }
             [contact, ..] => Err(Failure::paradox(model, place.t, *contact)),
         };
         let singular = |failure: &Failure| matches!(failure.reason, Reason::Singular { .. });
