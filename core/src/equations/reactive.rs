@@ -35,7 +35,7 @@ const ACCEPTED: f64 = 1e-12;
 const ROUNDING: f64 = 1e-10;
 /// Size, relative to the largest force, of a load that is a rounding error. Its direction, and with it the friction,
 /// is arbitrary.
-const NOISE: f64 = 1e-13;
+pub const NOISE: f64 = 1e-13;
 /// The first and the smallest step of the factor of the forces.
 const FIRST: f64 = 0.25;
 const LEAST: f64 = 1e-5;

@@ -186,6 +186,7 @@ impl Switching {
         motions.place(&model.layout, q, v);
         motions.pieces.clone_from(pieces);
         switches::functions(model, motions, Acting { z, lam, t }, sigma);
+        self.keep_through_noise(model);
     }
 
     /// The end of the next steps: a switch, or the end of the run.

@@ -1,8 +1,9 @@
-//! Holds released switches again after they have kept one piece.
+//! Holds released switches again after they have kept one piece, and others where their functions are rounding errors.
 
 use super::{History, Switching, CALM};
+use crate::equations::{energy, reactive};
 use crate::integrate::Step;
-use crate::model::Model;
+use crate::model::{size, Model, Switch, SwitchOwner};
 
 impl Switching {
     /// Holds released switches that have kept one piece for enough steps.
@@ -19,6 +20,24 @@ impl Switching {
             // a switch that was on its boundary at the start was not released
             if self.pieces[*k].is_nan() && (last.is_nan() || *steps >= CALM) {
                 self.pieces[*k] = piece;
+            }
+        }
+    }
+
+    /// Keeps the pieces of friction whose load is a rounding error beside the largest load or the forces of inertia, and
+    /// so has no sign.
+    pub(super) fn keep_through_noise(&mut self, model: &Model) {
+        let Some(workspace) = &self.workspace else { return };
+        let most = workspace.lam().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let inertia = energy::stirred(model, &self.motions) / size(model);
+        let least = (reactive::NOISE * most.max(inertia)).max(f64::MIN_POSITIVE);
+        for (k, switch) in model.switches.iter().enumerate() {
+            let Switch { owner: SwitchOwner::Force(f), law: false, .. } = *switch else {
+                continue;
+            };
+            let (sigma, piece) = (&mut self.sigma[k], self.pieces[k]);
+            if model.forces[f].reaction.is_some() && sigma.abs() <= least && !piece.is_nan() {
+                *sigma = least.copysign(piece);
             }
         }
     }
