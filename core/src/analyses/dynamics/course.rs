@@ -182,15 +182,14 @@ impl PhasedRun {
         loop {
             let own = self.own.clone();
             let (model, cache) = own.as_deref().map_or(base, |own| (&own.model, &own.cache));
-            let of = (&self.events, &self.conditions, &self.setting.released);
-            let watched = watched(model, of.0, of.1, of.2, options);
+            let released = &self.setting.released;
+            let watched = watched(model, &self.events, &self.conditions, released, options);
             run.settings.push(self.setting.clone());
             let phase = Phase { model, cache, project_velocities: holds(&self.setting) };
             let outcome = run_phase(phase, watched, &mut self.at, options, run, watch);
             self.guard.look((model, cache), run, outcome.is_ok());
             let Self { paradoxes, setting, at, laws, .. } = self;
-            let end = |failure| paradoxes.end((base.0, setting), at, failure);
-            match outcome.or_else(end).map_err(|failure| failure.advised(laws.jam))? {
+            match outcome.or_else(|e| paradoxes.end((base.0, setting, laws.jam), at, e))? {
                 PhaseEnd::Reached => {
                     run.reached = true;
                     return Ok(());

@@ -2,6 +2,7 @@
 
 use super::failure::{Failure, Reason};
 use super::modes::{self, Settled, StateAt, Uniqueness};
+use super::options::Jam;
 use super::run::{PhaseEnd, Progress};
 use super::run_results::Run;
 use super::setting::Setting;
@@ -30,7 +31,7 @@ impl Paradoxes {
     /// The failure of the phase where it has another cause.
     pub fn end(
         &mut self,
-        (base, setting): (&Model, &Setting),
+        (base, setting, jam): (&Model, &Setting, Jam),
         at: &mut Progress,
         failure: Box<Failure>,
     ) -> Result<PhaseEnd, Box<Failure>> {
@@ -38,7 +39,7 @@ impl Paradoxes {
             self.lost = lost(base, setting, at, &|_| true);
         }
         if self.lost.is_empty() {
-            return Err(failure);
+            return Err(failure.advised(jam));
         }
         Ok(PhaseEnd::Event)
     }
