@@ -251,7 +251,7 @@ class Motion:
         return self._answer(lambda states: states.force_results(name), lam)
 
     def force_energy(self, name: str) -> Floats:
-        """Energy that a force or the slip of a joint stores, and power that it dissipates, J and W."""
+        """Energy that a force or the slip of a joint stores, power that it dissipates, J and W."""
         known = self.compiled.forces.get(name)
         lam = self.lam if known is None or known.reads_multipliers else None
         return self._answer(lambda states: states.force_energy(name), lam)
