@@ -57,7 +57,8 @@ def asked_of(case: Case, *arguments: Any) -> dict[str, Any]:
         section = {
             key: of for key, of in section.items() if key not in (*AIMS, "subject_to", "loads")
         }
-    asked = {key: of if is_given(of) else section.get(key) for key, of in given.items()}
+    own = {key: of for key, of in given.items() if is_given(of) or (key in AIMS and of is not None)}
+    asked = {**dict.fromkeys(_NAMES), **section, **own}
     if not is_given(asked["variables"]):
         hint = "pass variables={'L2': (20, 30)}, or declare [optimize]"
         raise ModelError("optimize: no variables", hint=hint)

@@ -5,6 +5,9 @@ use crate::equations::{energy, reactive};
 use crate::integrate::Step;
 use crate::model::{size, Model, Switch, SwitchOwner};
 
+/// Evaluations in a row after which a small load is noise. A search for a zero evaluates its end a few times.
+pub(super) const NOISY: usize = 16;
+
 impl Switching {
     /// Holds released switches that have kept one piece for enough steps.
     pub(super) fn hold_calm(&mut self, model: &Model, step: &Step<'_>) {
@@ -25,7 +28,7 @@ impl Switching {
     }
 
     /// Keeps the pieces of friction whose load is a rounding error beside the largest load or the forces of inertia, and
-    /// so has no sign.
+    /// so has no sign. A load that passes zero is that small too, but only where its zero is sought.
     pub(super) fn keep_through_noise(&mut self, model: &Model) {
         let Some(workspace) = &self.workspace else { return };
         let most = workspace.lam().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -35,8 +38,10 @@ impl Switching {
             let Switch { owner: SwitchOwner::Force(f), law: false, .. } = *switch else {
                 continue;
             };
-            let (sigma, piece) = (&mut self.sigma[k], self.pieces[k]);
-            if model.forces[f].reaction.is_some() && sigma.abs() <= least && !piece.is_nan() {
+            let (sigma, piece, noisy) =
+                (&mut self.sigma[k], self.pieces[k], &mut self.history[k].noisy);
+            *noisy = if sigma.abs() <= least { *noisy + 1 } else { 0 };
+            if model.forces[f].reaction.is_some() && *noisy > NOISY && !piece.is_nan() {
                 *sigma = least.copysign(piece);
             }
         }

@@ -87,7 +87,7 @@ impl Switching {
             return Err(Cause::Equations { t, error: Breakdown::Sliding(switch) });
         }
         self.pieces[switch] = f64::NAN;
-        self.history[switch] = History { last: t, quick: 0, calm: (f64::NAN, 0) };
+        self.history[switch] = History { last: t, quick: 0, calm: (f64::NAN, 0), noisy: 0 };
         Ok(())
     }
 }
