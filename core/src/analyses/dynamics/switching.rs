@@ -26,7 +26,6 @@ use crate::integrate::{Cause, Scan, Step, TooFast};
 use crate::math::Listed;
 use crate::model::{Model, SwitchOwner};
 use crate::solve::Breakdown;
-use calm::NOISY;
 use forms::SwitchForm;
 
 /// Number of changes of one switch within [`SHORT`] of the run after which it counts as stuck.
@@ -46,8 +45,9 @@ struct History {
     /// The time of its last change, and the number of immediate changes in sequence.
     last: f64,
     quick: usize,
-    /// For a released switch: the piece of the last steps, and their number; then that of functions which were noise.
+    /// For a released switch: the piece of the last steps, and their number.
     calm: (f64, usize),
+    /// Evaluations in a row whose function is a rounding error.
     noisy: usize,
 }
 
@@ -122,6 +122,7 @@ impl Switching {
             SwitchOwner::Force(f) => model.forces[f].reaction.is_some(),
             SwitchOwner::Constraint(_) => false,
         });
+        let calm = (f64::NAN, 0);
         let mut switching = Self {
             pieces: schedule.start.clone(),
             schedule,
@@ -129,10 +130,7 @@ impl Switching {
             t_end,
             length: (t_end - t).abs(),
             sign: (t_end - t).signum(),
-            history: vec![
-                History { last: f64::NAN, quick: 0, calm: (f64::NAN, 0), noisy: NOISY };
-                n
-            ],
+            history: vec![History { last: f64::NAN, quick: 0, calm, noisy: usize::MAX }; n],
             forms: on_state.iter().map(|k| SwitchForm::of(model, *k)).list(),
             on_state,
             due: None,

@@ -6,7 +6,7 @@ use crate::integrate::Step;
 use crate::model::{size, Model, Switch, SwitchOwner};
 
 /// Evaluations in a row after which a small load is noise. A search for a zero evaluates its end a few times.
-pub(super) const NOISY: usize = 16;
+const NOISY: usize = 16;
 
 impl Switching {
     /// Holds released switches that have kept one piece for enough steps.
@@ -40,7 +40,7 @@ impl Switching {
             };
             let (sigma, piece, noisy) =
                 (&mut self.sigma[k], self.pieces[k], &mut self.history[k].noisy);
-            *noisy = if sigma.abs() <= least { *noisy + 1 } else { 0 };
+            *noisy = if sigma.abs() <= least { noisy.saturating_add(1) } else { 0 };
             if model.forces[f].reaction.is_some() && *noisy > NOISY && !piece.is_nan() {
                 *sigma = least.copysign(piece);
             }
