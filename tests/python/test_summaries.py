@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from python.test_reachable import arm, region
 from python.test_rest_paths import tilted
-from python.test_words_of_results import pendulums
+from python.test_words_of_results import crank_of, pendulums
 
 G = 9.81
 SIZES = [1e-2, 1.0, 40.0]
@@ -103,16 +103,8 @@ def test_regions(scale: float) -> None:
 
 @pytest.mark.parametrize("size", SIZES)
 def test_limits(size: float) -> None:
-    """A crank of 1 and a rod of 2: the slide moves from 1 to 3, and the crank turns fully."""
-    m = kp.Model("crank")
-    m.ground.points(O=(0, 0))
-    m.bar("crank", mass=1, length=size, ends=("O", "A"))
-    m.bar("rod", mass=1, length=2 * size, ends=("A", "B"))
-    m.body("slide", mass=1, inertia=1, points={"B": (0, 0)})
-    m.revolute("O", "ground.O", "crank.O")
-    m.revolute("A", "crank.A", "rod.A")
-    m.revolute("B", "rod.B", "slide.B")
-    m.translational("S", "ground.O", "slide.B", axes=(0, 0))
+    """The slide moves from 1 to 3, and the crank turns fully."""
+    m = crank_of(size)
     start = kp.assemble(m, set={"crank.angle": 0.4}, guess={"slide.x": 3 * size})
     at = size * (np.cos(0.4) + np.sqrt(4.0 - np.sin(0.4) ** 2))
     made = kp.limits(m, start, over="slide.x")

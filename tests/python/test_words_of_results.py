@@ -18,6 +18,20 @@ def pendulums(count: int, size: float = 1.0) -> tuple[kp.Model, kp.State]:
     return m, kp.assemble(m)
 
 
+def crank_of(size: float) -> kp.Model:
+    """A crank of 1, a rod of 2 and a slide, times a size."""
+    m = kp.Model("crank")
+    m.ground.points(O=(0, 0))
+    m.bar("crank", mass=1, length=size, ends=("O", "A"))
+    m.bar("rod", mass=1, length=2 * size, ends=("A", "B"))
+    m.body("slide", mass=1, inertia=1, points={"B": (0, 0)})
+    m.revolute("O", "ground.O", "crank.O")
+    m.revolute("A", "crank.A", "rod.A")
+    m.revolute("B", "rod.B", "slide.B")
+    m.translational("S", "ground.O", "slide.B", axes=(0, 0))
+    return m
+
+
 @pytest.mark.parametrize("size", SIZES)
 def test_modes(size: float) -> None:
     for count, words in ((0, "0 modes"), (1, "1 mode"), (3, "3 modes")):
@@ -72,15 +86,7 @@ def test_rests(size: float) -> None:
 @pytest.mark.parametrize("size", SIZES)
 def test_configurations(size: float) -> None:
     """A rod of 2 between a crank pin at 1 and a slide: two places of the slide."""
-    m = kp.Model("crank")
-    m.ground.points(O=(0, 0))
-    m.bar("crank", mass=1, length=size, ends=("O", "A"))
-    m.bar("rod", mass=1, length=2 * size, ends=("A", "B"))
-    m.body("slide", mass=1, inertia=1, points={"B": (0, 0)})
-    m.revolute("O", "ground.O", "crank.O")
-    m.revolute("A", "crank.A", "rod.A")
-    m.revolute("B", "rod.B", "slide.B")
-    m.translational("S", "ground.O", "slide.B", axes=(0, 0))
+    m = crank_of(size)
     found = kp.configurations(m, set={"crank.angle": 0.4})
     assert repr(found) == "<ConfigurationsResult: 2 configurations; there are no others>"
     table = {column.name: column.values for column in found.tables()["configurations"]}

@@ -5,6 +5,7 @@ from typing import Any
 
 import kempe as kp
 import pytest
+from kempe import _core
 from studio.window import Studio
 
 SAMPLES = Path(__file__).parents[2] / "exchange" / "tests" / "samples"
@@ -34,6 +35,8 @@ def opened(one: Studio, path: Path) -> None:
     """Open a file by the button *Open*."""
     with one.page.expect_file_chooser() as chooser:
         one.page.locator("#open").click()
+    offered = (chooser.value.element.get_attribute("accept") or "").split(",")
+    assert {f".{name}" for name in _core.exchange_formats()} < set(offered)
     chooser.value.set_files(path)
     one.settle()
 

@@ -10,8 +10,8 @@ use std::time::Duration;
 use crate::guard::{caught, raised};
 use crate::watch::ToEnd;
 
-/// Time between checks for signals.
-const GLANCE: Duration = Duration::from_millis(40);
+/// Time between checks for signals and calls of `progress`.
+pub const GLANCE: Duration = Duration::from_millis(40);
 /// Longest time for a computation to end with its result so far, after an interruption.
 pub const ENDING: Duration = Duration::from_millis(80);
 /// Stack size of the computation, equal to that of a main thread.

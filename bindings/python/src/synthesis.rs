@@ -1,5 +1,6 @@
 //! Synthesis of linkages: lists of numbers in, lists of numbers out.
 
+use crate::attended::GLANCE;
 use crate::errors::{Failure, Kind};
 use crate::guard::guard;
 use kempe::math::Complex;
@@ -11,7 +12,7 @@ use kempe_synthesis::{
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Linkage, positions and sum of squares.
 type Found = (Vec<f64>, Vec<[f64; 2]>, f64);
@@ -172,9 +173,6 @@ fn found<T>(of: Result<T, Refused>) -> PyResult<T> {
 /// Four-bars as (o, a, b, d) and the coupler point at all positions as pairs of numbers, the angles of the moving frame
 /// at the first position, and the errors.
 type Traces = (Py<PyArray1<f64>>, Vec<f64>, Vec<f64>);
-
-/// Time between checks for signals and calls of `progress`.
-const GLANCE: Duration = Duration::from_millis(40);
 
 /// Advances a search until `step` returns no more numbers of starts, tried and in all, or until a signal such as that of
 /// Ctrl-C raises an exception. It is returned, because the caller keeps the linkages found so far.

@@ -1,11 +1,10 @@
 //! Signals and progress during long runs.
 
+use crate::attended::GLANCE;
 use kempe::integrate::Flow;
 use pyo3::prelude::*;
 use std::time::{Duration, Instant};
 
-/// Time between checks for signals and calls of `progress`.
-const GLANCE: Duration = Duration::from_millis(40);
 /// Time between readings of the clock. It is so short that a step which takes hundreds of times as long as the
 /// previous states causes no noticeable delay.
 const PACE: Duration = Duration::from_micros(250);
